@@ -49,8 +49,8 @@ constexpr std::array<Choice, 2> kFrictionCones{
       "The paper's: up to μ times the normal force along each tangent, and up to 1.41 μ between "
       "the tangents."},
      {"cone",
-      "Isotropic Coulomb friction: the length of the friction force is at most μ times the normal "
-      "force."}}};
+      "Isotropic Coulomb friction: up to μ times the normal force against sliding in every "
+      "direction."}}};
 constexpr std::array<Choice, 3> kDetections{
     {{"sub-step", "Detected before every sub-step."},
      {"frame",

@@ -81,7 +81,7 @@ JointErrors JointStage::errors(const State& state, std::span<const Mat3> R_WB) c
       errors.gap = gap;
       errors.joint = static_cast<int>(i);
     }
-    errors.elastic += elastic(i, block);
+    errors.springs += elastic(i, block);
     const double torn = gap / joints_[i].largest_gap;
     if (torn > errors.torn) {
       errors.torn = torn;

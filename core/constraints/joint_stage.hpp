@@ -18,7 +18,7 @@ struct JointErrors {
   int joint = -1;        // the joint with that gap
   double torn = 0.0;     // largest gap of a joint that is no spring, of largest_gap() [-]
   int torn_joint = -1;   // that joint
-  double elastic = 0.0;  // energy of the joints that are springs [J]
+  double springs = 0.0;  // energy of the joints that are springs [J]
 };
 
 /// phi and J of the joints of a scene, in file order.

@@ -29,7 +29,9 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
   const auto add = [&](const std::string& text, const std::string& why = {}) -> Settings& {
     return all.emplace_back(Remedy{text, why, settings}).settings;
   };
-  const bool gains = exceeded && exceeded->what == Exceeded::What::kEnergyGain;
+  // A smaller alpha cures neither a gain of energy nor a contact that is found too late.
+  const bool of_rule = exceeded && (exceeded->what == Exceeded::What::kEnergyGain ||
+                                    exceeded->what == Exceeded::What::kOverlap);
   const auto add_defaults = [&] {
     Settings ours;
     ours.watch_stiffness = settings.watch_stiffness;  // display only
@@ -37,7 +39,7 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
       add("the default settings", "they keep the energy and find contacts in time") = ours;
     }
   };
-  if (gains) add_defaults();
+  if (of_rule) add_defaults();
   if (last.stages.gyroscopic && settings.gyroscopic == Gyroscopic::kExplicit) {
     add("an implicit gyroscopic torque").gyroscopic = Gyroscopic::kImplicit;
   }
@@ -63,8 +65,7 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
         "impacts change N, and short steps then correct errors of long ones too fast")
         .drift = Drift::kSoft;
   }
-  // Neither of these stops an adaptive N from pumping energy.
-  if (gains && adaptive) return all;
+  if (of_rule && adaptive) return all;
   if (adaptive && !last.capped && settings.alpha > kLeastOffered) {
     const double alpha = std::max(kLeastOffered, 0.5 * settings.alpha);
     add(format_text("a smaller alpha, %.3g", alpha)).alpha = alpha;
@@ -72,7 +73,7 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
   if (adaptive && settings.policy == Policy::kFrame) {
     add("a decision after every sub-step").policy = Policy::kSubstep;
   }
-  if (!gains) add_defaults();
+  if (!of_rule) add_defaults();
   return all;
 }
 

@@ -23,8 +23,9 @@ struct Remedy {
 /// Suggestions, the most likely first: the implicit gyroscopic torque instead of the explicit one,
 /// adaptive sub-steps if not used, a larger cap if it was reached, the direct solver instead of
 /// Gauss-Seidel, the soft drift law for impacts on joints, a smaller alpha, the default settings.
-/// For a gain of energy the default settings come first, and a smaller alpha is none. None has been
-/// tried. @param last the report of the failed frame @param exceeded Verdict::exceeded()
+/// For a gain of energy or an overlap the default settings come first, and a smaller alpha is none.
+/// None has been tried. @param last the report of the failed frame @param exceeded
+/// Verdict::exceeded()
 /// @return empty if no setting would help
 std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
                              const std::optional<Exceeded>& exceeded);

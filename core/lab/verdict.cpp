@@ -27,7 +27,7 @@ std::string text_of(const Exceeded& e) {
 constexpr double kPeriod = 0.5;          // [s]
 constexpr double kMostSustained = 0.01;  // of the energy exchanged
 constexpr double kMostNow = 0.1;
-constexpr double kMostAtFirst = 0.5;
+constexpr double kMostAtFirst = 0.25;
 constexpr double kRounding = 1e-12;   // of the energy of a body's size per frame
 constexpr double kNoise = 1e-5;       // of the weight times the size
 constexpr double kMostInside = 0.25;  // of the width of the smaller body
@@ -129,12 +129,14 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   } else if (judged && criteria.energy_gain) {
     judge(What::kEnergyGain, report.energy - energy_at_start_, *criteria.energy_gain, {});
   }
-  if (judged && judges_overlaps_ && report.inside_a >= 0) {
-    const double width = smaller_width(scene, report.inside_a, report.inside_b);
+  if (judged && judges_overlaps_) {
     inside_at_start_ = std::min(inside_at_start_, report.inside);
-    judge(What::kOverlap, report.inside * width, std::max(inside_at_start_, kMostInside) * width,
-          scene.bodies[index(report.inside_a)].name + ", " +
-              scene.bodies[index(report.inside_b)].name);
+    if (report.inside_a >= 0) {
+      const double width = smaller_width(scene, report.inside_a, report.inside_b);
+      judge(What::kOverlap, report.inside * width, std::max(inside_at_start_, kMostInside) * width,
+            scene.bodies[index(report.inside_a)].name + ", " +
+                scene.bodies[index(report.inside_b)].name);
+    }
   }
   if (judged && criteria.displacement) {
     const auto body = index(criteria.displacement->body);

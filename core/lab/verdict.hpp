@@ -23,7 +23,7 @@ struct Exceeded {
 /// largest kinetic energy, or the range of the potential or of the elastic energy.
 /// Over its lowest value the energy may rise by at most 10 % of that scale, and by at most 1 % for
 /// half a second: every integrator makes the energy oscillate, and what counts is a gain that
-/// stays. In the first half second, before there is such a scale, half of it counts as a gain. Work
+/// stays. In the first half second, while the scale is still small, it may rise by 25 %. Work
 /// of parting overlaps is no gain. Joints too stiff to be springs store energy that is not in the
 /// sum: a rise by as much is allowed besides, and for noise at rest 1e-5 of the weight times the
 /// size of the bodies. One scale for all: a heavy body that falls can hide a gain of light ones.
@@ -102,8 +102,7 @@ class Verdict {
   double energy_at_start_ = 0.0;
   std::optional<EnergyWatch> energy_;  // if the scene states no limit
   bool judges_overlaps_ = false;
-  double inside_at_start_ =
-      0.0;  // worst overlap at the start, less as it is parted, of the limit [-]
+  double inside_at_start_ = 0.0;  // worst FrameReport::inside at the start, less as it is parted
   Vec3 watched_start_ = Vec3::Zero();
   std::optional<Exceeded> exceeded_;
   std::string text_ = "holds";

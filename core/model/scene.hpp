@@ -32,10 +32,9 @@ inline constexpr double kAnyEnergy = std::numeric_limits<double>::infinity();
 /// Failure criteria of a run, and the scale of its errors. Limits that are not stated follow from
 /// the sizes, masses and energies of the run: core/lab/verdict.hpp.
 struct Criteria {
-  double duration = 10.0;           // simulated by `check` [s]
-  std::optional<double> joint_gap;  // a larger gap of any joint fails [m]
-  std::optional<double>
-      energy_gain;  // more energy than at the start by this fails, or kAnyEnergy [J]
+  double duration = 10.0;              // simulated by `check` [s]
+  std::optional<double> joint_gap;     // a larger gap of any joint fails [m]
+  std::optional<double> energy_gain;   // a larger gain over the start fails; or kAnyEnergy [J]
   std::optional<double> energy_scale;  // energy that the motion exchanges: 100 % of the drift [J]
   struct Displacement {
     int body = 0;           // index into Scene::bodies
@@ -94,7 +93,10 @@ inline double size_of_joint(const Scene& scene, const JointBase& joint) {
 /// motion [m].
 inline double largest_gap(const Scene& scene, const JointBase& joint) {
   constexpr double kTorn = 0.1;  // of its size
-  return scene.criteria.joint_gap.value_or(kTorn * size_of_joint(scene, joint));
+  // A joint at the centre of b has no arms, and a may be a plane.
+  const double b =
+      is_fixed(scene, joint.b) ? 0.0 : radius_around(scene.bodies[index(joint.b)].shape);
+  return scene.criteria.joint_gap.value_or(kTorn * std::max(size_of_joint(scene, joint), b));
 }
 
 /// A larger gap at the start is an error of the scene [m].

@@ -87,8 +87,8 @@ constexpr std::array kFields{
                  "paper's rule only",
                  FlagSetting{&S::rotation_criterion}},
     SettingField{"friction_cone",
-                 "bounds of friction: each tangent up to mu times the normal force (box, the "
-                 "paper's), or the length of the force (cone)",
+                 "friction up to mu times the normal force: along each of two fixed tangents (box, "
+                 "the paper's), or in every direction of sliding (cone)",
                  ChoiceSetting<FrictionCone>{&S::friction_cone}},
     SettingField{"watch_stiffness", "evaluate K even if the mode does not need it",
                  FlagSetting{&S::watch_stiffness}},

@@ -22,8 +22,8 @@ enum class Policy : std::uint8_t { kFrame, kSubstep };
 enum class Drift : std::uint8_t { kAuto, kFull, kSoft, kExact };
 /// Which contact block enters K: the paper's (a modified ball-and-socket) or the true derivative.
 enum class ContactStiffness : std::uint8_t { kPaper, kExact };
-/// Friction bound mu times the normal force: on each tangential component (box), or on the length
-/// (cone).
+/// Friction bound mu times the normal force: on each component along fixed tangents (box), or in
+/// every direction of sliding (cone).
 enum class FrictionCone : std::uint8_t { kBox, kCone };
 enum class Gyroscopic : std::uint8_t { kExplicit, kImplicit };
 /// Contact detection: before every sub-step; once per frame with a look-ahead over the frame,

@@ -266,11 +266,10 @@ double Simulator::Impl::stiff_elastic() const {
   double energy = 0.0;
   double lambda[kMaxRows];
   for (const Block& block : blocks.all()) {
-    const bool is_joint = !block.is_contact() && block.id < scene->joints.size();
-    if (!is_joint) continue;
+    if (block.is_contact() || block.id >= scene->joints.size()) continue;  // or the grab
     find_lambda(current, block, lambda);
     for (int row = 0; row < block.rows; ++row) {
-      if (joints->is_spring(index(static_cast<int>(block.id)), row, block)) continue;
+      if (joints->is_spring(static_cast<std::size_t>(block.id), row, block)) continue;
       energy += 0.5 * block.C[row] * lambda[row] * lambda[row];
     }
   }
@@ -300,7 +299,7 @@ void Simulator::Impl::observe(const Measures& asked, std::span<const Mat3> axes,
     report.joint_gap_joint = errors.joint;
     report.torn = errors.torn;
     report.torn_joint = errors.torn_joint;
-    report.springs += errors.elastic;
+    report.springs += errors.springs;
   }
   if (detector != nullptr && (asked.errors || (asked.energies && soft))) {
     const Overlaps found = overlaps(*detector, *scene, all, state, axes);

@@ -7,11 +7,10 @@ namespace substep {
 
 namespace {
 
-constexpr double kTolerance = 1e-10;    // on bounds and complementarity, times 1 + |impulse|
-constexpr double kLeastSliding = 1e-6;  // of the normal speed: slower has no direction [-]
-constexpr int kPasses = 4;              // refreshes of the friction bounds, the first included
-constexpr int kSinglePivots = 50;       // per solve: Murty's rule terminates; this bounds its time
-constexpr int kSweeps = 100;            // sweeps of the fallback: 25 do not hold a house of cards
+constexpr double kTolerance = 1e-10;  // on bounds and complementarity, times 1 + |impulse|
+constexpr int kPasses = 4;            // refreshes of the friction bounds, the first included
+constexpr int kSinglePivots = 50;     // per solve: Murty's rule terminates; this bounds its time
+constexpr int kSweeps = 100;          // sweeps of the fallback: 25 do not hold a house of cards
 
 bool any_tight(const Block& block) {
   return std::any_of(block.active_set, block.active_set + block.rows,
@@ -77,7 +76,7 @@ void Bpp::centre(const System& system) {
 }
 
 SolveReport Bpp::find_velocities(const System& system, const Settings& settings) {
-  if (settings.friction_cone == FrictionCone::kCone) align_tangents(system);
+  if (settings.friction_cone == FrictionCone::kCone) align_tangents(system.blocks, system.u);
   if (!ldlt_.begin(system)) {
     return {.status = SolveStatus::kOverLimits, .memory_needed = ldlt_.needed_memory()};
   }
@@ -205,35 +204,6 @@ void Bpp::start_active_set(const System& system) {
       std::fill(block.active_set, block.active_set + block.rows,
                 static_cast<std::int8_t>(reaches ? 0 : -1));
     }
-  }
-}
-
-// With the cone, the first tangent points along the sliding that the bodies would have without
-// friction. A contact that slides then takes mu times its normal force against it, whatever its
-// direction, and one that sticks takes as much before it slides. Pointing the box itself at the
-// force instead would leave a contact that sticks free to slide across its force.
-void Bpp::align_tangents(const System& system) {
-  for (Block& block : system.blocks) {
-    if (block.rows != 3 || !block.is_contact()) continue;
-    double speed[kMaxRows];
-    row_speeds(block, system.u, speed);
-    const double length = std::sqrt(speed[1] * speed[1] + speed[2] * speed[2]);
-    if (!(length > kLeastSliding * std::abs(speed[0]))) continue;
-    const double c = speed[1] / length;
-    const double s = speed[2] / length;
-    const auto turn = [&](double& along_t1, double& along_t2) {
-      const double first = c * along_t1 + s * along_t2;
-      along_t2 = c * along_t2 - s * along_t1;
-      along_t1 = first;
-    };
-    for (int j = 0; j < 6; ++j) {
-      turn(block.J_a[1][j], block.J_a[2][j]);
-      turn(block.J_b[1][j], block.J_b[2][j]);
-    }
-    for (int j = 0; j < 3; ++j) turn(block.t1[j], block.t2[j]);
-    turn(block.bias[1], block.bias[2]);
-    turn(block.given[1], block.given[2]);
-    turn(block.impulse[1], block.impulse[2]);
   }
 }
 

@@ -38,8 +38,6 @@ class Bpp final : public Solver {
     std::int8_t set = 0;
   };
   void start_active_set(const System& system);
-  /// Rotates the tangents of contacts, with their rows, to the direction of sliding.
-  static void align_tangents(const System& system);
   void set_friction_bounds(const System& system);
   /// True if the solution stays valid under the friction bounds it implies.
   [[nodiscard]] bool bounds_settled(const System& system) const;

@@ -239,6 +239,11 @@ double Newton::take(const System& system) {
 
 SolveReport Newton::find_velocities(const System& system, const Settings& settings) {
   u_star_.assign(system.u.begin(), system.u.end());
+  Settings linear_settings = settings;
+  if (settings.friction_cone == FrictionCone::kCone) {
+    align_tangents(system.blocks, u_star_);
+    linear_settings.friction_cone = FrictionCone::kBox;  // of these tangents, in every step
+  }
   u_.resize(u_star_.size());
   inverse_mass_.resize(u_star_.size());
   read_rows(system, settings.forces);
@@ -256,7 +261,7 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
     stiffen(system, settings.forces);
     System linear{rows_, inverse_mass_, u_, system.u_before, system.dt};
     linear.limits = {system.limits.memory, system.limits.work - static_cast<double>(report.flops)};
-    SolveReport step = linear_.solve(linear, settings);
+    SolveReport step = linear_.solve(linear, linear_settings);
     if (step.status == SolveStatus::kOverLimits) {
       if (step.work_needed > 0.0) step.work_needed += static_cast<double>(report.flops);
       return step;

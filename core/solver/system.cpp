@@ -119,6 +119,32 @@ void point_cone(Block& block, double along_t1, double along_t2) {
   block.share[1] = length > 0.0 ? std::abs(along_t2) / length : even;
 }
 
+void align_tangents(std::span<Block> blocks, std::span<const Vec6> u) {
+  constexpr double kLeastSliding = 1e-6;  // of the normal speed: slower has no direction [-]
+  for (Block& block : blocks) {
+    if (block.rows != 3 || !block.is_contact()) continue;
+    block.share[0] = block.share[1] = 1.0;  // sweeps of a fallback may have changed it
+    double speed[kMaxRows];
+    row_speeds(block, u, speed);
+    const double length = std::sqrt(speed[1] * speed[1] + speed[2] * speed[2]);
+    if (!(length > kLeastSliding * std::abs(speed[0]))) continue;
+    const double c = speed[1] / length;
+    const double s = speed[2] / length;
+    const auto turn = [&](double& along_t1, double& along_t2) {
+      const double first = c * along_t1 + s * along_t2;
+      along_t2 = c * along_t2 - s * along_t1;
+      along_t1 = first;
+    };
+    for (int j = 0; j < 6; ++j) {
+      turn(block.J_a[1][j], block.J_a[2][j]);
+      turn(block.J_b[1][j], block.J_b[2][j]);
+    }
+    for (int j = 0; j < 3; ++j) turn(block.t1[j], block.t2[j]);
+    turn(block.bias[1], block.bias[2]);
+    turn(block.given[1], block.given[2]);
+  }
+}
+
 double lcp_residual(const System& system) {
   double worst = 0.0;
   double speed[kMaxRows];

@@ -117,6 +117,15 @@ double friction_bound(const Block& block, int row, double normal);
 /// Sets Block::share of the cone for a friction impulse; equal shares if it is zero.
 void point_cone(Block& block, double along_t1, double along_t2);
 
+/// Isotropic friction for solvers that bound each tangent: rotates the tangents of every contact,
+/// with their rows, so that t1 points along its sliding under u. A contact that slides then takes
+/// mu times its normal force against it, whatever its direction, and one that sticks takes as much
+/// before it slides; across it the box allows as much again. Scaling the bounds of fixed tangents
+/// to the direction of the force instead would leave a contact that sticks free to slide across its
+/// force. Impulses are not rotated: those of the last sub-step belong to its sliding, too.
+/// @param u before constraint impulses, per body [m/s, rad/s]
+void align_tangents(std::span<Block> blocks, std::span<const Vec6> u);
+
 /// Largest violation of bounds [N s] and complementarity [m/s] of a solved system.
 double lcp_residual(const System& system);
 

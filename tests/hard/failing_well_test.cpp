@@ -156,13 +156,15 @@ TEST(Remedies, AreEmptyWhenNoSettingIsLeftToChange) {
   EXPECT_TRUE(remedies(settings, over_budget, {}).empty());
 }
 
-TEST(Remedies, AgainstAGainOfEnergyAreNoSmallerAlpha) {
-  Exceeded gain;
-  gain.what = Exceeded::What::kEnergyGain;
-  const auto all = remedies(Settings{}, {}, gain);
-  ASSERT_FALSE(all.empty());
-  EXPECT_EQ(all[0].settings, substep::Settings{});
-  for (const Remedy& remedy : all) EXPECT_EQ(remedy.settings.alpha, 0.1) << remedy.text;
+TEST(Remedies, AgainstGainsAndOverlapsAreNoSmallerAlpha) {
+  for (const auto what : {Exceeded::What::kEnergyGain, Exceeded::What::kOverlap}) {
+    Exceeded exceeded;
+    exceeded.what = what;
+    const auto all = remedies(Settings{}, {}, exceeded);
+    ASSERT_FALSE(all.empty());
+    EXPECT_EQ(all[0].settings, substep::Settings{});
+    for (const Remedy& remedy : all) EXPECT_EQ(remedy.settings.alpha, 0.1) << remedy.text;
+  }
 }
 
 // What is offered as tried has held; what has not is left out.

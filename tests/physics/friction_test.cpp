@@ -120,6 +120,27 @@ TEST(Friction, OfTheConeOpposesTheSliding) {
   }
 }
 
+// The force that is reported and enters K, not the motion alone.
+TEST(Friction, OfTheConeIsReportedAgainstTheSliding) {
+  for (const SolverKind solver : kAllSolvers) {
+    Scene scene = block_on_a_slope(0.3, true, {1.0, 0.0, 2.0});
+    scene.gravity = {0.0, -kGravity, 0.0};
+    Simulator simulator = test::simulator_of(scene, settings_of(solver, FrictionCone::kCone));
+    for (int i = 0; i < 10; ++i) simulator.step();
+    Vec3 friction = Vec3::Zero();
+    double normal = 0.0;
+    for (const auto& contact : simulator.constraint_forces().contacts) {
+      const double along = contact.force.dot(contact.normal);
+      const double on_block = contact.a == 1 ? 1.0 : -1.0;
+      friction += on_block * (contact.force - along * contact.normal);
+      normal += along;
+    }
+    const Vec3 v = simulator.state().u[1].head<3>();
+    EXPECT_NEAR(friction.norm(), kMu * normal, 0.01 * kMu * normal) << name_of(solver);
+    EXPECT_LT(friction.normalized().dot(v.normalized()), -0.999) << name_of(solver);
+  }
+}
+
 // Below Coulomb's limit nothing slides, in any direction. Passes over redundant contact points once
 // ended in a cycle, and a box crept at 88 % of the limit.
 TEST(Friction, OfTheConeHoldsBelowTheLimit) {

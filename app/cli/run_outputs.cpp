@@ -22,9 +22,9 @@ std::string json_text(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Errors found at the start, maximum over the joints [m, rad, m/s, rad/s], and the energy of their
-/// correction [J].
-Json start_json(const StartReport& start) {
+/// Errors found at the start, maximum over the joints [m, rad, m/s, rad/s], the energy of their
+/// correction [J] and the deepest overlap [m].
+Json start_json(const StartReport& start, const FrameReport& observed) {
   const StartErrors& found = start.found;
   return {{"consistent", found.consistent()},
           {"gap", found.gap},
@@ -33,10 +33,11 @@ Json start_json(const StartReport& start) {
           {"turning", found.turning},
           {"projected", start.projected},
           {"energy_found", start.energy_found},
-          {"energy_begun", start.energy_begun}};
+          {"energy_begun", start.energy_begun},
+          {"overlap", observed.penetration}};
 }
 
-std::string json_head(const Simulator& simulator) {
+std::string json_head(const Simulator& simulator, const FrameReport& start) {
   const Scene& scene = simulator.scene();
   const Settings& settings = simulator.settings();
   std::string text = "{\n  \"scene\": " + json_text(scene.name) + ",\n  \"settings\": {";
@@ -47,7 +48,8 @@ std::string json_head(const Simulator& simulator) {
     text += is_choice(field) ? json_text(value) : value;
     separator = ", ";
   }
-  return text + "},\n  \"start\": " + start_json(simulator.start()).dump() + ",\n  \"frames\": [";
+  return text + "},\n  \"start\": " + start_json(simulator.start(), start).dump() +
+         ",\n  \"frames\": [";
 }
 
 std::string json_tail(const Metrics& metrics) {
@@ -93,11 +95,11 @@ bool RunOutputs::open(const RunFiles& files) {
          joints_.open(files.joints);
 }
 
-void RunOutputs::begin(const Simulator& simulator) {
+void RunOutputs::begin(const Simulator& simulator, const FrameReport& start) {
   const Scene& scene = simulator.scene();
   columns_ = frame_columns(scene);
   if (csv_.is_open()) csv_.write(csv_header(columns_));
-  if (json_.is_open()) json_.write(json_head(simulator));
+  if (json_.is_open()) json_.write(json_head(simulator, start));
   if (states_.is_open()) states_.write(states_header() + states_lines(scene, simulator.state()));
   if (joints_.is_open()) joints_.write(joints_header());
   for (Output* lines : {&csv_, &states_, &joints_}) lines->keep_if_ended();

@@ -31,7 +31,7 @@ class RunOutputs {
  public:
   /// @return false, with a message on stderr, if one of them cannot be written
   bool open(const RunFiles& files);
-  void begin(const Simulator& simulator);
+  void begin(const Simulator& simulator, const FrameReport& start);
   void add(const Simulator& simulator, const FrameReport& frame);
   /// Whether a write failed; the run then stops.
   [[nodiscard]] bool failed() const;

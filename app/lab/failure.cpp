@@ -40,7 +40,6 @@ Failure failed_body(const Scene& scene, const Poses& poses, int index) {
 std::optional<Failure> failure_of(const Scene& scene, const Poses& poses, const FrameReport& report,
                                   const Verdict& verdict) {
   if (verdict.holds()) return std::nullopt;
-  const Criteria& criteria = scene.criteria;
   const std::optional<Exceeded>& exceeded = verdict.exceeded();
   std::optional<Failure> failure;
   if (report.status != StepStatus::kOk) {
@@ -49,11 +48,8 @@ std::optional<Failure> failure_of(const Scene& scene, const Poses& poses, const 
   }
   if (exceeded && exceeded->what == Exceeded::What::kJointGap && report.torn_joint >= 0) {
     failure = torn_joint(scene, poses, report.torn_joint);
-  } else if (exceeded && exceeded->what == Exceeded::What::kMoved) {
-    failure = failed_body(scene, poses, criteria.displacement->body);
-  } else if (exceeded && exceeded->what == Exceeded::What::kOverlap && report.inside_a >= 0) {
-    const bool a_moves = !is_fixed(scene, report.inside_a);
-    failure = failed_body(scene, poses, a_moves ? report.inside_a : report.inside_b);
+  } else if (exceeded && exceeded->body >= 0) {
+    failure = failed_body(scene, poses, exceeded->body);
   }
   if (failure && exceeded) failure->exceeded = *exceeded;
   return failure;

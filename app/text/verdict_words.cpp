@@ -39,6 +39,8 @@ std::string exceeded_label(const Exceeded& e) {
       return "moved " + value;
     case Exceeded::What::kOverlap:
       return "overlap " + value;
+    case Exceeded::What::kPassage:
+      return "passed through";
   }
   return "";
 }
@@ -57,6 +59,8 @@ std::string exceeded_sentence(const Exceeded& e) {
     case Exceeded::What::kOverlap:
       return e.name + ": they overlap by " + value + ". Above " + limit +
              " bodies count as inside each other.";
+    case Exceeded::What::kPassage:
+      return e.name + ": they passed through each other between two frames.";
   }
   return "";
 }

@@ -71,7 +71,9 @@ void energy_plot(const PlotContext& in) {
   const bool several = in.compare.open();
   const double zero = h.potential_offset();
   double most = largest_of_stable(in, &History::largest_kinetic);
-  if (!several && gravity) most = std::max(most, zero);
+  if (!several && gravity) {  // parting overlaps and gains raise the total
+    most = std::max({most, zero, largest_of_stable(in, &History::largest_drift)});
+  }
   const Unit unit = unit_for(std::max(most, kLeastEnergy));
   const std::string heading = (several ? "Kinetic, " : "Energy, ") + unit.prefix + "J";
 

@@ -2,7 +2,9 @@
 
 #include <vector>
 
+#include "core/lab/verdict.hpp"
 #include "core/model/format_text.hpp"
+#include "core/stepping/compliance.hpp"
 
 namespace substep {
 namespace {
@@ -71,6 +73,17 @@ std::string start_text(const Scene& scene, const StartReport& report) {
     text += report.failed ? "; no start nearby closes the joints, so it is kept." : "; kept.";
   }
   return text + " Energy " + energy + ".";
+}
+
+std::string overlap_text(const Scene& scene, const Settings& settings, const FrameReport& start) {
+  constexpr double kLeast = 1e-3;  // of the width
+  if (start.inside_a < 0 || !(start.inside > kLeast) || is_soft_contact(scene.contact)) return "";
+  const auto name = [&](int body) { return "'" + scene.bodies[index(body)].name + "'"; };
+  return name(start.inside_a) + " and " + name(start.inside_b) + " overlap by " +
+         length_text(start.inside * smaller_width(scene, start.inside_a, start.inside_b)) +
+         (settings.detection == Detection::kContinuous
+              ? " at the start; they are parted without speed."
+              : " at the start; their correction adds speed (detection continuous: none).");
 }
 
 }  // namespace substep

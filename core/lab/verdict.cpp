@@ -15,6 +15,7 @@ using What = Exceeded::What;
 
 /// "joint gap 0.13 m > 0.1 m (link_3)"
 std::string text_of(const Exceeded& e) {
+  if (e.what == What::kPassage) return "passed through each other: " + e.name;
   const char* unit = e.what == What::kEnergyGain ? "J" : "m";
   const char* what = e.what == What::kJointGap     ? "joint gap"
                      : e.what == What::kEnergyGain ? "energy gain"
@@ -29,8 +30,9 @@ constexpr double kMostSustained = 0.01;  // of the energy exchanged
 constexpr double kMostNow = 0.1;
 constexpr double kMostAtFirst = 0.25;
 constexpr double kRounding = 1e-12;   // of the energy of a body's size per frame
-constexpr double kNoise = 1e-5;       // of the weight times the size
+constexpr double kNoise = 1e-4;       // of the weight times the size: overlaps that contacts allow
 constexpr double kMostInside = 0.25;  // of the width of the smaller body
+constexpr double kParted = 1e-3;      // of that width: an overlap that is left
 
 bool has_torque(const Scene& scene) {
   return scene.effects.external &&
@@ -38,10 +40,8 @@ bool has_torque(const Scene& scene) {
                      [](const Body& body) { return !body.is_static && !body.torque.isZero(0.0); });
 }
 
-/// Of two bodies [m].
-double smaller_width(const Scene& scene, int a, int b) {
-  return 2.0 * std::min(half_width(scene.bodies[index(a)].shape),
-                        half_width(scene.bodies[index(b)].shape));
+std::string names_of(const Scene& scene, int a, int b) {
+  return scene.bodies[index(a)].name + ", " + scene.bodies[index(b)].name;
 }
 
 }  // namespace
@@ -51,16 +51,21 @@ EnergyWatch::EnergyWatch(const Scene& scene, const FrameReport& start)
       period_lowest_(lowest_),
       kinetic_(start.kinetic),
       potential_{start.potential, start.potential},
-      elastic_{start.elastic, start.elastic} {
+      elastic_{start.elastic, start.elastic},
+      parts_(start.inside > kParted) {
+  double weight = 0.0;
+  int moving = 0;
   for (const Body& body : scene.bodies) {
     if (body.is_static) continue;
     const double size = radius_around(body.shape);
     const double speed = size / scene.frame;
     const double gravity = scene.effects.gravity ? scene.gravity.norm() : 0.0;
-    const double force = scene.effects.external ? body.force.norm() : 0.0;
-    besides_ +=
-        kNoise * (body.mass * gravity + force) * size + kRounding * body.mass * speed * speed;
+    const double force = body.mass * gravity + (scene.effects.external ? body.force.norm() : 0.0);
+    besides_ += kNoise * force * size + kRounding * body.mass * speed * speed;
+    weight += force;
+    ++moving;
   }
+  most_parting_ = weight * start.penetration * moving;
 }
 
 void EnergyWatch::Span::add(double value) {
@@ -69,7 +74,8 @@ void EnergyWatch::Span::add(double value) {
 }
 
 void EnergyWatch::add(const FrameReport& report) {
-  parting_ += report.parting;
+  if (parts_) parting_ = std::min(parting_ + report.parting, most_parting_);
+  parts_ = parts_ && report.inside > kParted;
   const double energy = report.energy - parting_;
   stiff_ = std::max(stiff_, report.elastic - report.springs);
   const auto period = static_cast<std::int64_t>(report.time / kPeriod);
@@ -99,6 +105,7 @@ Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& star
   if (start.status == StepStatus::kInvalid) return;
   judges_overlaps_ = !scene.criteria.energy_gain && !is_soft_contact(scene.contact);
   if (!scene.criteria.energy_gain && !has_torque(scene)) energy_.emplace(scene, start);
+  if (scene.effects.contact) passages_.emplace(scene, state);
   if (!scene.criteria.displacement) return;
   watched_start_ = state.x[index(scene.criteria.displacement->body)];
 }
@@ -108,10 +115,11 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   const Criteria& criteria = scene.criteria;
   std::string why = stop_text(scene, report);
   // The first criterion exceeded is the reason; all contribute to utilisation_.
-  const auto judge = [&](What what, double value, double limit, const std::string& name) {
+  const auto judge = [&](What what, double value, double limit, const std::string& name,
+                         int body = -1) {
     utilisation_ = std::max(utilisation_, value / limit);
     if (!(value > limit) || !why.empty()) return;
-    exceeded_ = {what, value, limit, name};
+    exceeded_ = {what, value, limit, name, body};
     why = text_of(*exceeded_);
   };
   stopped_ = report.status != StepStatus::kOk;
@@ -129,19 +137,27 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   } else if (judged && criteria.energy_gain) {
     judge(What::kEnergyGain, report.energy - energy_at_start_, *criteria.energy_gain, {});
   }
+  if (judged && passages_) {
+    if (const auto passage = passages_->add(scene, state)) {
+      const int moves = is_fixed(scene, passage->body) ? passage->through : passage->body;
+      judge(What::kPassage, passage->depth, 0.0, names_of(scene, passage->body, passage->through),
+            moves);
+    }
+  }
   if (judged && judges_overlaps_) {
     inside_at_start_ = std::min(inside_at_start_, report.inside);
     if (report.inside_a >= 0) {
       const double width = smaller_width(scene, report.inside_a, report.inside_b);
+      const bool a_moves = !is_fixed(scene, report.inside_a);
       judge(What::kOverlap, report.inside * width, std::max(inside_at_start_, kMostInside) * width,
-            scene.bodies[index(report.inside_a)].name + ", " +
-                scene.bodies[index(report.inside_b)].name);
+            names_of(scene, report.inside_a, report.inside_b),
+            a_moves ? report.inside_a : report.inside_b);
     }
   }
   if (judged && criteria.displacement) {
     const auto body = index(criteria.displacement->body);
     judge(What::kMoved, (state.x[body] - watched_start_).norm(), criteria.displacement->distance,
-          scene.bodies[body].name);
+          scene.bodies[body].name, criteria.displacement->body);
   }
   if (why.empty()) return;
   failed_ = true;

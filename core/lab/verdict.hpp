@@ -1,22 +1,31 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include "core/lab/passage.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
 #include "core/sim/report.hpp"
 
 namespace substep {
 
+/// Smallest width of the smaller of two bodies [m].
+inline double smaller_width(const Scene& scene, int a, int b) {
+  return 2.0 * std::min(half_width(scene.bodies[index(a)].shape),
+                        half_width(scene.bodies[index(b)].shape));
+}
+
 /// A limit and the value that exceeds it.
 struct Exceeded {
-  enum class What { kJointGap, kEnergyGain, kMoved, kOverlap };
+  enum class What { kJointGap, kEnergyGain, kMoved, kOverlap, kPassage };
   What what = What::kJointGap;
-  double value = 0.0;  // [m], of an energy [J]
+  double value = 0.0;  // [m], of an energy [J]; of a passage Passage::depth
   double limit = 0.0;  // in the same unit
   std::string name;    // of the joint, body or bodies, empty for an energy
+  int body = -1;       // index of the body, of two the one that moves; -1 for a joint or an energy
 };
 
 /// The energy of a run against its own scale, the energy that the motion has exchanged so far: the
@@ -24,9 +33,11 @@ struct Exceeded {
 /// Over its lowest value the energy may rise by at most 10 % of that scale, and by at most 1 % for
 /// half a second: every integrator makes the energy oscillate, and what counts is a gain that
 /// stays. In the first half second, while the scale is still small, it may rise by 25 %. Work
-/// of parting overlaps is no gain. Joints too stiff to be springs store energy that is not in the
-/// sum: a rise by as much is allowed besides, and for noise at rest 1e-5 of the weight times the
-/// size of the bodies. One scale for all: a heavy body that falls can hide a gain of light ones.
+/// of parting the overlaps of the start is no gain, until these are parted, and up to that of
+/// lifting every body by the deepest of them times their number. Joints too stiff to be springs
+/// store energy that is not in the sum: a rise by as much is allowed besides, and for noise at rest
+/// 1e-4 of the weight times the size of the bodies. One scale for all: a heavy body that falls can
+/// hide a gain of light ones.
 class EnergyWatch {
  public:
   EnergyWatch(const Scene& scene, const FrameReport& start);
@@ -54,10 +65,12 @@ class EnergyWatch {
   std::int64_t period_ = 0;
   double rise_ = 0.0;       // now [J]
   double sustained_ = 0.0;  // largest rise of the lowest energy of a period [J]
-  double parting_ = 0.0;    // sum of FrameReport::parting [J]
   double kinetic_ = 0.0;    // largest so far [J]
   Span potential_;
   Span elastic_;
+  bool parts_ = false;    // overlaps of the start are left
+  double parting_ = 0.0;  // sum of FrameReport::parting while there were [J]
+  double most_parting_ = 0.0;
   double stiff_ = 0.0;    // largest energy of stiff joints so far [J]
   double besides_ = 0.0;  // noise [J]
 };
@@ -69,6 +82,8 @@ class EnergyWatch {
 /// - the energy may rise as EnergyWatch says, unless a constant torque does work;
 /// - bodies without a spring between them may overlap by a quarter of the width of the smaller, or
 ///   by as much as they did at the start.
+///
+/// Bodies that collide must not pass through each other in any scene, PassageWatch.
 class Verdict {
  public:
   /// @param start report of the initial state of the run (Simulator::observe)
@@ -100,7 +115,8 @@ class Verdict {
   double failed_at_ = 0.0;
   double utilisation_ = 0.0;
   double energy_at_start_ = 0.0;
-  std::optional<EnergyWatch> energy_;  // if the scene states no limit
+  std::optional<EnergyWatch> energy_;     // if the scene states no limit
+  std::optional<PassageWatch> passages_;  // if there are contacts
   bool judges_overlaps_ = false;
   double inside_at_start_ = 0.0;  // worst FrameReport::inside at the start, less as it is parted
   Vec3 watched_start_ = Vec3::Zero();

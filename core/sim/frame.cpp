@@ -115,6 +115,7 @@ void Simulator::Impl::begin_again(FrameReport& report) {
   report.n_discarded += report.n_substeps;
   report.parting = 0.0;
   report.n_substeps = 0;
+  substeps_of_bodies = 0;
   report.dt_min = report.dt_max = 0.0;
   report.asleep = 0;
   schedule_substeps(report);

@@ -166,7 +166,9 @@ void frame(App& app, double wall_dt, bool whole) {
     app.session.pause();
     app.pause_at = 0.0;  // playing again continues past the end
   }
-  app.accuracy.advance(Accuracy::slice(app.session.playing(), wall_dt - app.own_time));
+  const double slice = Accuracy::slice(app.session.playing(), wall_dt - app.own_time);
+  app.accuracy.advance(slice);
+  if (!app.session.playing()) app.try_remedies(slice);
   app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   app.notice.left -= wall_dt;
 

@@ -55,14 +55,13 @@ std::string remedy_lines(const Simulator& failing, const Verdict& verdict,
   const auto scene = std::make_shared<const Scene>(failing.scene());
   const Settings& settings = failing.settings();
   const std::atomic<bool>& cancelled = cancel_on_signal();
-  const TriedRemedies tried =
-      try_remedies(scene, settings, failed, verdict.exceeded(),
-                   {.frames = frames, .budget = failing.budget(), .cancelled = [&] {
-                      return cancelled.load();
-                    }});
+  RemedyTrials tried(scene, remedies(settings, failed, verdict.exceeded()),
+                     {.frames = frames, .budget = failing.budget()});
+  while (!cancelled && tried.advance()) {
+  }
   const std::string duration = number_text(static_cast<double>(frames) * scene->frame) + " s";
   std::string text;
-  for (const Remedy& remedy : tried.hold) {
+  for (const Remedy& remedy : tried.hold()) {
     const std::string flags = remedy.settings == Settings{}
                                   ? "--preset steady"
                                   : setting_flags(remedy.settings, settings).substr(1);
@@ -70,8 +69,8 @@ std::string remedy_lines(const Simulator& failing, const Verdict& verdict,
             (remedy.why.empty() ? "" : "; " + remedy.why) + " (" + flags + "): holds for " +
             duration + "\n";
   }
-  if (tried.failed > 0 && tried.hold.empty()) {
-    text = "remedies     none of the " + std::to_string(tried.failed) +
+  if (tried.failed() > 0 && tried.hold().empty()) {
+    text = "remedies     none of the " + std::to_string(tried.failed()) +
            " that were tried holds for " + duration + "\n";
   }
   return text;
@@ -99,7 +98,7 @@ int run(const RunOptions& options) {
   const Verdict& verdict = measure.verdict();
   RunReport report(*scene, start);
   ProgressLine progress(!options.quiet && stderr_is_terminal());
-  outputs.begin(simulator);
+  outputs.begin(simulator, start);
 
   // If a result goes to standard output, messages go to stderr.
   std::FILE* words = options.files.take_standard_output() ? stderr : stdout;
@@ -107,8 +106,10 @@ int run(const RunOptions& options) {
     std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
                  settings_line(simulator.settings()).c_str(),
                  forecast_line(*scene, simulator.settings()).c_str());
-    const std::string start_note = start_text(*scene, simulator.start());
-    if (!start_note.empty()) std::fprintf(words, "%s\n", start_note.c_str());
+    for (const std::string& note : {start_text(*scene, simulator.start()),
+                                    overlap_text(*scene, simulator.settings(), start)}) {
+      if (!note.empty()) std::fprintf(words, "%s\n", note.c_str());
+    }
     std::fflush(words);
   }
   const std::int64_t frames = options.length.count(*scene);

@@ -1,6 +1,7 @@
 #include "app/lab/lab.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "app/text/link.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
+#include "core/lab/slice.hpp"
+#include "core/lab/start_text.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/setting_fields.hpp"
 
@@ -38,6 +41,8 @@ void Lab::run(std::shared_ptr<const Scene> scene) {
   const bool watched = session.settings().watch_stiffness;
   session.load(std::move(scene));
   watch_stiffness(watched);
+  std::string note = overlap_text(session.scene(), session.settings(), session.report());
+  if (!note.empty()) tell(std::move(note));
   if (restarted) restarted(true);
 }
 
@@ -226,6 +231,27 @@ void Lab::note_failure() {
   } else {
     session.hold();
   }
+}
+
+const RemedyTrials* Lab::remedy_trials() const {
+  return trials_ && trials_run_ == run_count && !session.verdict().holds() ? &*trials_ : nullptr;
+}
+
+void Lab::try_remedies(double seconds) {
+  if (session.verdict().holds()) return;
+  if (trials_run_ != run_count || !trials_) {
+    const Scene& scene = session.scene();
+    const double failed_at = session.verdict().failed_at();
+    const Timeline& timeline = session.timeline();
+    const Moment& then = timeline[timeline.at_time(failed_at)];
+    const double judged = std::max(scene.criteria.duration, failed_at);
+    trials_.emplace(session.shared_scene(),
+                    remedies(then.settings, session.stopped() ? session.report() : then.report,
+                             session.verdict().exceeded()),
+                    Trial{.frames = std::llround(judged / scene.frame), .enough = 3});
+    trials_run_ = run_count;
+  }
+  advance_for(seconds, [&] { return trials_->advance(); });
 }
 
 bool Lab::frozen() const {

@@ -16,6 +16,7 @@
 #include "app/lab/own_scenes.hpp"
 #include "app/lab/session.hpp"
 #include "core/io/scene_reader.hpp"
+#include "core/lab/remedy.hpp"
 
 namespace substep {
 
@@ -69,7 +70,7 @@ struct Lab {
   [[nodiscard]] bool held() const { return !heavy.why.empty() && heavy.run == run_count; }
   /// Whether anything runs without input: playback, a sweep, a search.
   [[nodiscard]] bool busy() const {
-    return session.playing() || accuracy.busy() || compare.behind(session);
+    return session.playing() || accuracy.busy() || compare.behind(session) || trying_remedies();
   }
 
   /// Largest mass of a moving body in the scene as loaded [kg]; the load multiplies it.
@@ -90,6 +91,15 @@ struct Lab {
   [[nodiscard]] bool frozen() const;
   /// What failed in a pane, while it shows the frame that failed.
   [[nodiscard]] std::optional<Failure> failure_in(std::size_t pane) const;
+  /// Tries remedies for the failed run, from the start of its scene for as long as it is judged.
+  /// @param seconds budget in this frame
+  void try_remedies(double seconds);
+  /// Trials for the failed run, or null.
+  [[nodiscard]] const RemedyTrials* remedy_trials() const;
+  [[nodiscard]] bool trying_remedies() const {
+    const RemedyTrials* trials = remedy_trials();
+    return trials != nullptr && !trials->done();
+  }
   /// Shows a notice for a moment.
   void tell(std::string text);
 
@@ -127,6 +137,8 @@ struct Lab {
   [[nodiscard]] std::string events_in_link() const;
 
   FailedFrame failed_frame_;  // of frozen()
+  std::optional<RemedyTrials> trials_;
+  int trials_run_ = 0;  // the run_count that they belong to
 };
 
 }  // namespace substep

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "app/text/format.hpp"
 #include "app/text/verdict_words.hpp"
@@ -13,20 +14,16 @@
 namespace substep::ui {
 namespace {
 
-/// Remedies for the frame that failed, the most likely first.
-std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
-  const Timeline& timeline = session.timeline();
-  const Moment& then = timeline[timeline.at_time(session.verdict().failed_at())];
-  auto all = remedies(then.settings, session.stopped() ? session.report() : then.report,
-                      session.verdict().exceeded());
-  all.resize(std::min(all.size(), most));
-  return all;
+std::string duration_text(const Scene& scene, const RemedyTrials& trials) {
+  return plain_number(static_cast<double>(trials.trial().frames) * scene.frame) + " s";
 }
 
 /// A button: restarts the same scene with the remedy.
-void reset_with(const Look& look, Lab& lab, const Remedy& remedy, ButtonKind kind) {
+void reset_with(const Look& look, Lab& lab, const Remedy& remedy, const std::string& duration,
+                ButtonKind kind) {
   const std::string tip = "The same scene from its start with " + remedy.text +
-                          (remedy.why.empty() ? "" : "; " + remedy.why);
+                          (remedy.why.empty() ? "" : "; " + remedy.why) + ". Tried: it holds for " +
+                          duration + ".";
   if (button(look, remedy.text.c_str(), Icon::kReset, ("Reset with " + remedy.text), kind, 0.0F,
              28.0F, tip)) {
     lab.change(remedy.settings);
@@ -46,7 +43,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
   if (desk.failure_run != lab.run_count) desk.failure_place = -1;
   desk.failure_run = lab.run_count;
   if (desk.failure_place < 0 && !viewport.view.camera.at_rest()) return;  // first what failed
-  constexpr ImVec2 kSize(380.0F, 180.0F);  // with the maximum number of remedies
+  constexpr ImVec2 kSize(380.0F, 220.0F);  // with the maximum number of remedies
   const CardPlace place = card_beside(lab.session, viewport, kSize, desk.failure_place);
   if (begin_card(look, "##failure", kSize.x, place)) {
     card_title(look, look.theme->orange, Icon::kCross,
@@ -66,10 +63,28 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
       what += " is no longer finite. The last finite state is shown.";
     }
     label(look.fonts.small, look.theme->dim, what);
-    auto kind = ButtonKind::kPrimary;  // for the most likely remedy
-    for (const Remedy& remedy : remedies_of(lab.session, v.height > 400.0F ? 3 : 1)) {
-      reset_with(look, lab, remedy, kind);
-      kind = ButtonKind::kPlain;
+    if (const RemedyTrials* trials = lab.remedy_trials()) {
+      const std::vector<Remedy> hold = trials->hold();  // a button may start another run
+      const std::string duration = duration_text(lab.session.scene(), *trials);
+      if (!trials->done()) {
+        label(look.fonts.small, look.theme->dim, "Trying remedies for " + duration + " ...");
+      } else if (hold.empty() && trials->failed() > 0) {
+        label(look.fonts.small, look.theme->dim,
+              trials->failed() == 1
+                  ? "The remedy that was tried does not hold for " + duration + "."
+                  : "None of the " + std::to_string(trials->failed()) +
+                        " remedies that were tried holds for " + duration + ".");
+      }
+      if (!hold.empty()) {
+        label(look.fonts.small, look.theme->dim,
+              "Tried from the start, holds for " + duration + ":");
+      }
+      auto kind = ButtonKind::kPrimary;  // for the most likely remedy
+      const std::size_t most = v.height > 400.0F ? 3 : 1;
+      for (std::size_t i = 0; i < std::min(hold.size(), most); ++i) {
+        reset_with(look, lab, hold[i], duration, kind);
+        kind = ButtonKind::kPlain;
+      }
     }
     if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to the start (R)")) {

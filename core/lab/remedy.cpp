@@ -1,7 +1,9 @@
 #include "core/lab/remedy.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "core/lab/slice.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/model/format_text.hpp"
 #include "core/sim/simulator.hpp"
@@ -31,7 +33,8 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
   };
   // A smaller alpha cures neither a gain of energy nor a contact that is found too late.
   const bool of_rule = exceeded && (exceeded->what == Exceeded::What::kEnergyGain ||
-                                    exceeded->what == Exceeded::What::kOverlap);
+                                    exceeded->what == Exceeded::What::kOverlap ||
+                                    exceeded->what == Exceeded::What::kPassage);
   const auto add_defaults = [&] {
     Settings ours;
     ours.watch_stiffness = settings.watch_stiffness;  // display only
@@ -77,30 +80,52 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
   return all;
 }
 
-TriedRemedies try_remedies(const std::shared_ptr<const Scene>& scene, const Settings& settings,
-                           const FrameReport& failed, const std::optional<Exceeded>& exceeded,
-                           const Trial& trial) {
-  TriedRemedies tried;
-  for (Remedy& remedy : remedies(settings, failed, exceeded)) {
-    if (tried.hold.size() == trial.enough || trial.cancelled()) break;
-    Simulator simulator(scene);
+struct RemedyTrials::Run {
+  Run(const std::shared_ptr<const Scene>& scene, const Remedy& remedy, const Trial& trial)
+      : simulator(scene) {
     simulator.set_settings(remedy.settings);
     simulator.set_budget(trial.budget);
     simulator.set_measures({.stages = false});
-    Verdict verdict(*scene, simulator.state(), simulator.observe());
-    double work = 0.0;
-    std::int64_t frame = 0;
-    for (; frame < trial.frames && verdict.holds() && work < trial.most_work; ++frame) {
-      if (trial.cancelled()) return tried;
-      const FrameReport report = simulator.step();
-      verdict.add(*scene, simulator.state(), report);
-      work += static_cast<double>(report.n_substeps + report.n_discarded) *
-              static_cast<double>(scene->bodies.size());
-    }
-    if (!verdict.holds()) ++tried.failed;
-    if (verdict.holds() && frame == trial.frames) tried.hold.push_back(std::move(remedy));
+    verdict.emplace(*scene, simulator.state(), simulator.observe());
   }
-  return tried;
+
+  Simulator simulator;
+  std::optional<Verdict> verdict;
+  double work = 0.0;
+};
+
+RemedyTrials::RemedyTrials(std::shared_ptr<const Scene> scene, std::vector<Remedy> remedies,
+                           const Trial& trial)
+    : scene_(std::move(scene)), remedies_(std::move(remedies)), trial_(trial) {}
+
+RemedyTrials::~RemedyTrials() = default;
+RemedyTrials::RemedyTrials(RemedyTrials&&) noexcept = default;
+RemedyTrials& RemedyTrials::operator=(RemedyTrials&&) noexcept = default;
+
+bool RemedyTrials::done() const {
+  return run_ == nullptr && (next_ == remedies_.size() || hold_.size() == trial_.enough);
+}
+
+bool RemedyTrials::advance() {
+  if (done()) return false;
+  if (run_ == nullptr) run_ = std::make_unique<Run>(scene_, remedies_[next_++], trial_);
+  Run& run = *run_;
+  const std::int64_t frame = run.simulator.state().frame;
+  const FrameReport report = run.simulator.step_some(kPartWork);
+  const bool complete = run.simulator.state().frame > frame;
+  if (!complete && report.status == StepStatus::kOk) return true;
+  run.verdict->add(*scene_, run.simulator.state(), report);
+  run.work += static_cast<double>(report.n_substeps + report.n_discarded) *
+              static_cast<double>(scene_->bodies.size());
+  if (!run.verdict->holds()) {
+    ++failed_;
+  } else if (run.simulator.state().frame >= trial_.frames) {
+    hold_.push_back(remedies_[next_ - 1]);
+  } else if (run.work < trial_.most_work) {
+    return true;
+  }
+  run_.reset();
+  return !done();
 }
 
 }  // namespace substep

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,8 +22,8 @@ struct Remedy {
 /// Suggestions, the most likely first: the implicit gyroscopic torque instead of the explicit one,
 /// adaptive sub-steps if not used, a larger cap if it was reached, the direct solver instead of
 /// Gauss-Seidel, the soft drift law for impacts on joints, a smaller alpha, the default settings.
-/// For a gain of energy or an overlap the default settings come first, and a smaller alpha is none.
-/// None has been tried. @param last the report of the failed frame @param exceeded
+/// For a gain of energy, an overlap or a passage the default settings come first, and a smaller
+/// alpha is none. None has been tried. @param last the report of the failed frame @param exceeded
 /// Verdict::exceeded()
 /// @return empty if no setting would help
 std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
@@ -32,21 +31,39 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
 
 /// How remedies are tried.
 struct Trial {
-  std::int64_t frames = 0;  // of the run that failed: as many must hold
+  std::int64_t frames = 0;  // that must hold
   Budget budget = {};
   std::size_t enough = 2;  // remedies that hold
   double most_work = 3e6;  // of one remedy [sub-steps times bodies]; one that needs more is left
-  std::function<bool()> cancelled = [] { return false; };
 };
 
-struct TriedRemedies {
-  std::vector<Remedy> hold;  // for the whole run
-  int failed = 0;            // that do not hold; those that need too much work are not counted
-};
+/// Tries remedies one after the other, each in a run of the scene from its start.
+class RemedyTrials {
+ public:
+  RemedyTrials(std::shared_ptr<const Scene> scene, std::vector<Remedy> remedies,
+               const Trial& trial);
+  ~RemedyTrials();
+  RemedyTrials(RemedyTrials&&) noexcept;
+  RemedyTrials& operator=(RemedyTrials&&) noexcept;
 
-/// Runs the scene from its start with each remedy.
-TriedRemedies try_remedies(const std::shared_ptr<const Scene>& scene, const Settings& settings,
-                           const FrameReport& failed, const std::optional<Exceeded>& exceeded,
-                           const Trial& trial);
+  /// Takes a frame of a trial, or a part of it. @return false when done
+  bool advance();
+  /// Those that held for all frames, so far.
+  [[nodiscard]] const std::vector<Remedy>& hold() const { return hold_; }
+  /// Number that do not hold, so far; those that need too much work are not counted.
+  [[nodiscard]] int failed() const { return failed_; }
+  [[nodiscard]] bool done() const;
+  [[nodiscard]] const Trial& trial() const { return trial_; }
+
+ private:
+  struct Run;
+  std::shared_ptr<const Scene> scene_;
+  std::vector<Remedy> remedies_;
+  Trial trial_;
+  std::size_t next_ = 0;      // remedy to try
+  std::unique_ptr<Run> run_;  // of the remedy before it, while it runs
+  std::vector<Remedy> hold_;
+  int failed_ = 0;
+};
 
 }  // namespace substep

@@ -157,7 +157,8 @@ TEST(Remedies, AreEmptyWhenNoSettingIsLeftToChange) {
 }
 
 TEST(Remedies, AgainstGainsAndOverlapsAreNoSmallerAlpha) {
-  for (const auto what : {Exceeded::What::kEnergyGain, Exceeded::What::kOverlap}) {
+  for (const auto what :
+       {Exceeded::What::kEnergyGain, Exceeded::What::kOverlap, Exceeded::What::kPassage}) {
     Exceeded exceeded;
     exceeded.what = what;
     const auto all = remedies(Settings{}, {}, exceeded);
@@ -173,18 +174,24 @@ TEST(Remedies, ThatAreTriedHoldForTheWholeRun) {
   const Settings settings{.mode = Mode::kNone};
   FrameReport failed;
   run(scene, settings, 10.0, [&](const Simulator&, const FrameReport& report) { failed = report; });
-  const TriedRemedies tried =
-      try_remedies(shared(scene), settings, failed, {}, {.frames = 600, .enough = 10});
-  EXPECT_EQ(tried.failed + static_cast<int>(tried.hold.size()),
-            static_cast<int>(remedies(settings, failed, {}).size()));
-  ASSERT_GE(tried.hold.size(), 2U);
-  for (const Remedy& remedy : tried.hold) {
+  const std::vector<Remedy> all = remedies(settings, failed, {});
+  const auto tried_by = [&](const Trial& trial) {
+    RemedyTrials trials(shared(scene), all, trial);
+    while (trials.advance()) {
+    }
+    EXPECT_TRUE(trials.done());
+    return trials;
+  };
+  const RemedyTrials tried = tried_by({.frames = 600, .enough = 10});
+  EXPECT_EQ(tried.failed() + static_cast<int>(tried.hold().size()), static_cast<int>(all.size()));
+  ASSERT_GE(tried.hold().size(), 2U);
+  for (const Remedy& remedy : tried.hold()) {
     EXPECT_TRUE(run(scene, remedy.settings, 10.0).holds) << remedy.text;
   }
-  const TriedRemedies costly =
-      try_remedies(shared(scene), settings, failed, {}, {.frames = 600, .most_work = 1000.0});
-  EXPECT_TRUE(costly.hold.empty());
-  EXPECT_EQ(costly.failed, 0);
+  EXPECT_EQ(tried_by({.frames = 600, .enough = 1}).hold().size(), 1U);
+  const RemedyTrials costly = tried_by({.frames = 600, .most_work = 1000.0});
+  EXPECT_TRUE(costly.hold().empty());
+  EXPECT_EQ(costly.failed(), 0);
 }
 
 TEST(Remedies, AreEmptyForTooManyContacts) {

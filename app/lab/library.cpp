@@ -13,10 +13,11 @@ struct Group {
   std::string_view name;
   std::string_view title;
 };
-constexpr std::array<Group, 7> kGroups{{{kOwnGroup, "Your own"},
+constexpr std::array<Group, 8> kGroups{{{kOwnGroup, "Your own"},
                                         {"paper", "From the paper"},
                                         {"authors", "The authors' constants"},
                                         {"stress", "Stress"},
+                                        {"energy", "Energy of adaptive steps"},
                                         {"exact", "Exact solutions"},
                                         {"exam", "The exam: known solutions"},
                                         {"playground", "Playground"}}};

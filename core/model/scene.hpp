@@ -57,7 +57,7 @@ struct Camera {
 struct Scene {
   std::string name;         // identifier: file name without .json
   std::string title;        // for people
-  std::string group;        // "paper", "exact", "stress", "playground"
+  std::string group;        // "paper", "exact", "energy", "stress", "playground"
   std::string description;  // what it is
   std::string look_for;     // what to watch
 

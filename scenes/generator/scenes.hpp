@@ -79,6 +79,11 @@ Scene heavy_top();
 /// Light links on ball joints with a heavy box at the end, whirled around the vertical.
 Scene whirling_chain();
 
+/// A four-bar linkage with a fast crank; conservative.
+Scene crank_rocker();
+/// A ball thrown up on a light rope, which goes slack and snaps taut; conservative.
+Scene thrown_rope();
+
 /// A box on a slope.
 struct SlopeOptions {
   // A Pythagorean triple: the slope falls `fall` over `run`, and `length` is exact.

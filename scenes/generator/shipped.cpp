@@ -21,6 +21,8 @@ std::vector<Scene> shipped() {
                          spherical_pendulum(),
                          heavy_top(),
                          whirling_chain(),
+                         crank_rocker(),
+                         thrown_rope(),
                          sliding_box(),
                          free_fall(),
                          bouncing_balls(),

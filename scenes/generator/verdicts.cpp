@@ -260,6 +260,34 @@ Expectations verdicts_of_whirling_chain() {
   return rules;
 }
 
+Expectations verdicts_of_crank_rocker() {
+  return {all_hold("Exact joints at a constant or held N keep the energy; Newton's damps it."),
+          fails(kBpp, Mode::kNone, 1.0, "A frame is half a radian of the crank."),
+          fails(kPgs, Mode::kNone, 1.0, "A frame is half a radian of the crank.")};
+}
+
+Expectations verdicts_of_thrown_rope() {
+  const std::string snap = "The snap needs some 150 sub-steps in its frame.";
+  Expectations rules{
+      all_hold("N rises within the frame of a snap (redo) and is held; Newton's method damps."),
+      fails(kBpp, Mode::kNone, 2.0, snap),
+      const_fails(kBpp, 4, 2.0, snap),
+      const_fails(kBpp, 16, 8.0, snap),
+      fails(kPgs, Mode::kNone, 2.0, snap),
+      fails(kXpbd, Mode::kNone, 2.0, snap),
+      const_fails(kXpbd, 4, 2.0, snap)};
+  add_fails(rules, kBpp, std::array{Mode::kInertia, Mode::kBlend}, 2.0,
+            "Four sub-steps resolve no snap, and a larger inertia does not damp it.");
+  add_depends(rules, kBpp, kOneStep,
+              "With Euler the damping holds, with leapfrog the start fails.");
+  add_depends(rules, kPgs, std::array{Mode::kConst},
+              "How much 16 sub-steps of 25 sweeps gain at a snap depends on the phase.");
+  rules.push_back(const_fails(kPgs, 4, 2.0, snap));
+  add_fails(rules, kPgs, kOneStep, 2.0, "25 sweeps do not converge for a step of a whole frame.");
+  add_fails(rules, kPgs, kUpToTheCap, 2.0, snap);
+  return rules;
+}
+
 }  // namespace
 
 Expectations verdicts_of(const std::string& name) {
@@ -277,6 +305,8 @@ Expectations verdicts_of(const std::string& name) {
   if (name == "ragdoll_drop") return verdicts_of_ragdoll_drop();
   if (name == "newtons_cradle") return verdicts_of_newtons_cradle();
   if (name == "whirling_chain") return verdicts_of_whirling_chain();
+  if (name == "crank_rocker") return verdicts_of_crank_rocker();
+  if (name == "thrown_rope") return verdicts_of_thrown_rope();
   if (name == "wall")
     return {all_hold("There is no joint that could open: all numbers stay finite.")};
   return {all_hold("One body, or bodies that do not load each other.")};

@@ -39,7 +39,9 @@ inline constexpr const char* kScenes[] = {"swinging_box",
                                           "newtons_cradle",
                                           "spherical_pendulum",
                                           "heavy_top",
-                                          "whirling_chain"};
+                                          "whirling_chain",
+                                          "crank_rocker",
+                                          "thrown_rope"};
 
 /// A program that takes the folder of the scenes, and optionally k to run each k-th case only. It
 /// runs every shipped scene: adaptive and with 16 sub-steps, with BPP and with PGS; the heaps with

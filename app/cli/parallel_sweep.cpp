@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <optional>
 
 #include "app/cli/cancel.hpp"
 #include "app/cli/in_parallel.hpp"
@@ -35,10 +36,14 @@ bool run_sweep(const ParallelSweep& sweep) {
 
   std::atomic<bool> failed{false};
   const auto stopping = [&] { return failed || cancel_on_signal(); };
-  ReferenceRun finding_reference(sweep.scene, longest);
-  while (!stopping() && finding_reference.advance()) sweep.on_progress(0.0);
-  if (stopping()) return false;
-  const Reference reference = finding_reference.reference();
+  std::optional<Reference> found;
+  if (sweep.reference == nullptr) {
+    ReferenceRun run(sweep.scene, longest);
+    while (!stopping() && run.advance()) sweep.on_progress(0.0);
+    if (stopping()) return false;
+    found = run.reference();
+  }
+  const Reference& reference = found ? *found : *sweep.reference;
 
   std::vector<std::atomic<double>> done(costs.size());  // share of each run
   const auto run_one = [&](std::size_t i) {

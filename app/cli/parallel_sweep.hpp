@@ -12,6 +12,7 @@ struct ParallelSweep {
   std::shared_ptr<const Scene> scene;
   std::vector<Experiment> experiments;
   int jobs = 1;
+  const Reference* reference = nullptr;  // of the scene; null: it is found first
   /// Called from any thread as runs end, with the index of the experiment. @return false to stop
   /// the sweep
   std::function<bool(std::size_t, const Result&)> on_result;

@@ -166,7 +166,9 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   ResultsFile file;
   if (!keep_scene(folder, *scene) || !file.open((folder / name).string())) return kBadInput;
 
-  ParallelSweep parallel{scene, {}, options.jobs, {}, {}};
+  ParallelSweep parallel;
+  parallel.scene = scene;
+  parallel.jobs = options.jobs;
   std::vector<std::string> order;
   for (const Experiment& experiment : all) {
     order.push_back(experiment_id(experiment));

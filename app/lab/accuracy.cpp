@@ -19,6 +19,7 @@ double wall_clock() {
 void Accuracy::begin(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
   search_.reset();
+  trial_.reset();
   sweep_.reset();
   shipped_.reset();
   cancelled_ = false;
@@ -71,6 +72,11 @@ double Accuracy::slice(bool plays, double drawing) {
 void Accuracy::advance(double seconds) {
   if (effects.running()) {
     effects.advance(seconds);
+    return;
+  }
+  if (trying()) {
+    trial_->advance(seconds);
+    last_ = -1.0;  // the sweep is paused
     return;
   }
   if (searching()) {
@@ -169,6 +175,38 @@ void Accuracy::search_alpha() {
 
 const AlphaSearch* Accuracy::alpha_search() const {
   return search_ && searched_for_ == limit() ? &*search_ : nullptr;
+}
+
+bool Accuracy::can_promise() const {
+  return error != ErrorAxis::kTrajectory ||
+         kTimesAsCertain * floor() <= wanted.at(static_cast<std::size_t>(error));
+}
+
+void Accuracy::try_whole() {
+  tried_for_ = limit();
+  std::vector<Result> candidates;
+  for (const Point& point :
+       cheapest_first(run_points(results(), error, CostAxis::kOperations), tried_for_.most)) {
+    candidates.push_back(results()[point.result]);
+  }
+  // The path was compared for as long as there is a reference.
+  const auto serves = [axis = error, most = tried_for_.most](const Result& result) {
+    const auto value = error_of(result, axis);
+    return axis == ErrorAxis::kTrajectory || (value && *value <= most);
+  };
+  trial_.emplace(scene_, std::move(candidates), scene_->criteria.duration, no_reference(), serves,
+                 kWindowBudget);
+}
+
+const HoldSearch* Accuracy::trial() const {
+  return trial_ && tried_for_ == limit() ? &*trial_ : nullptr;
+}
+
+std::optional<Recommended> Accuracy::take_recommended() {
+  if (!trial() || !trial_->found()) return std::nullopt;
+  const Tried tried{scene_->criteria.duration, trial_->failed().size()};
+  trial_.reset();
+  return recommended_of(results(), error, tried_for_.most, tried);
 }
 
 std::vector<Accuracy::Point> Accuracy::failed() const {

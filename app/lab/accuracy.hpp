@@ -11,6 +11,7 @@
 #include "core/io/stored_sweep.hpp"
 #include "core/lab/alpha_search.hpp"
 #include "core/lab/fair_trade.hpp"
+#include "core/lab/hold_search.hpp"
 #include "core/lab/recommendation.hpp"
 #include "core/lab/sweep.hpp"
 
@@ -50,7 +51,9 @@ class Accuracy {
   void advance(double seconds);
 
   /// Whether advance() has work to do.
-  [[nodiscard]] bool busy() const { return effects.running() || searching() || running(); }
+  [[nodiscard]] bool busy() const {
+    return effects.running() || trying() || searching() || running();
+  }
   /// Whether the sweep is unfinished; a search pauses it.
   [[nodiscard]] bool running() const {
     return sweep_.has_value() && !cancelled_ && !sweep_->done();
@@ -90,6 +93,17 @@ class Accuracy {
   [[nodiscard]] bool searching() const { return alpha_search() && !search_->done(); }
   /// Maximum number of sub-steps in the search.
   [[nodiscard]] int search_cap() const { return paper_.n_max; }
+  /// Whether the reference is certain enough for the limit of the error.
+  [[nodiscard]] bool can_promise() const;
+  /// Runs the settings within the error for the scene's whole duration, the cheapest first, until
+  /// one meets it. Requires a limit on an error.
+  void try_whole();
+  void cancel_trial() { trial_.reset(); }
+  /// The trial for the current requirement, or null.
+  [[nodiscard]] const HoldSearch* trial() const;
+  [[nodiscard]] bool trying() const { return trial() && !trial_->done(); }
+  /// The recommendation that the trial has found, once.
+  std::optional<Recommended> take_recommended();
   /// Failed runs at load 1.
   [[nodiscard]] std::vector<Point> failed() const;
   /// Whether two or more runs have such an error.
@@ -138,6 +152,8 @@ class Accuracy {
   Settings paper_;                     // settings of the sweep's paper curve, without alpha
   std::optional<AlphaSearch> search_;  // uses the sweep's reference
   Limit searched_for_;
+  std::optional<HoldSearch> trial_;
+  Limit tried_for_;
   bool cancelled_ = false;
   double elapsed_ = 0.0;  // wall time of the sweep, including the time between slices [s]
   double last_ = -1.0;    // wall clock at the last slice [s]

@@ -160,6 +160,7 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
   } else if (value == "cancel") {
     accuracy.cancel();
     accuracy.cancel_search();
+    accuracy.cancel_trial();
     accuracy.effects.cancel();
   } else if (value == "alpha") {
     if (!accuracy.can_search()) {

@@ -106,6 +106,39 @@ std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::P
              : with + "has an error of " + error_text(paper->error, accuracy.error) + ".";
 }
 
+/// Keeping the cheapest setting that also holds for the scene's whole duration.
+void keep_button(const Look& look, Lab& lab) {
+  Accuracy& accuracy = lab.accuracy;
+  // Stored recommendations count operations, which are the same on every machine.
+  if (!accuracy.error_is_given || accuracy.cost != CostAxis::kOperations) return;
+  const std::string whole = plain_number(accuracy.scene()->criteria.duration) + " s";
+  if (!accuracy.can_promise()) {
+    label(look.fonts.small, look.theme->dim,
+          "It is not kept: the reference is uncertain by " + coarse_number(accuracy.floor()) +
+              " m, so less than ten times this is not promised.");
+    return;
+  }
+  if (accuracy.trying()) {
+    label(look.fonts.small, look.theme->dim, "Trying it for all " + whole + " of the scene");
+    if (progress(look, accuracy.trial()->progress(), "Keeps nothing")) accuracy.cancel_trial();
+    return;
+  }
+  ImGui::SameLine(0.0F, 8.0F);
+  if (button(look, "keep", Icon::kNone, "Keep for this scene", ButtonKind::kGhost, 0.0F, look.m.row,
+             "Adds a copy to your own scenes that starts with it, and has it as the preset "
+             "recommended. It must hold for all " +
+                 whole + " of the scene; otherwise the next cheapest that does is kept")) {
+    accuracy.try_whole();
+  }
+  if (const auto recommended = accuracy.take_recommended()) {
+    lab.keep(*recommended);
+  } else if (accuracy.trial()) {
+    label(look.fonts.small, look.theme->dim,
+          "None of the " + std::to_string(accuracy.trial()->failed().size()) +
+              " settings tried holds for all " + whole + " of the scene.");
+  }
+}
+
 }  // namespace
 
 void search_bar(const Look& look, Accuracy& accuracy) {
@@ -146,23 +179,14 @@ void advice(const Look& look, Lab& lab) {
   const std::string reason =
       "With " + parameter_text(s) + " within " + limit_text(accuracy) + ": " +
       error_text(best->error, accuracy.error) + " for " + cost_text(best->cost, accuracy.cost) +
-      "." + (search && search->done() ? "" : " " + beside_paper(accuracy, points, *best));
+      ", over " + plain_number(result.experiment.duration) + " s." +
+      (search && search->done() ? "" : " " + beside_paper(accuracy, points, *best));
   label(look.fonts.small, look.theme->dim, reason);
   if (button(look, "cheapest", Icon::kPlay, "Run it", ButtonKind::kPlain, 0.0F, look.m.row,
              "This scene from its start with this method")) {
     lab.run_result(Result(result));
   }
-  // Stored recommendations count operations, which are the same on every machine.
-  if (accuracy.error_is_given && accuracy.cost == CostAxis::kOperations) {
-    ImGui::SameLine(0.0F, 8.0F);
-    if (button(look, "keep", Icon::kNone, "Keep for this scene", ButtonKind::kGhost, 0.0F,
-               look.m.row,
-               "Adds a copy to your own scenes that starts with it, and has it as the preset "
-               "recommended")) {
-      lab.keep(*recommended_of(accuracy.results(), accuracy.error,
-                               accuracy.wanted.at(static_cast<std::size_t>(accuracy.error))));
-    }
-  }
+  keep_button(look, lab);
   paper_alpha(look, lab, &*best);
   space(8.0F);
 }

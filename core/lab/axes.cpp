@@ -1,10 +1,25 @@
 #include "core/lab/axes.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "core/model/methods.hpp"
 
 namespace substep {
+namespace {
+
+/// True if two bodies that can collide are both of this kind.
+template <class Kind>
+bool is_pair(const Scene& scene, const Kind& kind) {
+  const auto count = [&](bool moving_only) {
+    return std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+      return body.collides && !(moving_only && body.is_static) && kind(body);
+    });
+  };
+  return count(false) > 1 && count(true) > 0;
+}
+
+}  // namespace
 
 const char* axis_name(ErrorAxis axis) {
   constexpr std::array<const char*, kCountOf<ErrorAxis>> kNames{
@@ -56,8 +71,29 @@ std::optional<double> error_of(const Result& result, ErrorAxis axis) {
   return std::nullopt;
 }
 
+std::string energy_changes_by(const Scene& scene, bool touches) {
+  const Effects& effects = scene.effects;
+  const bool contact = effects.contact && touches;
+  if (contact && effects.friction &&
+      is_pair(scene, [](const Body& body) { return body.friction > 0.0; })) {
+    return "friction";
+  }
+  if (contact && is_pair(scene, [&](const Body& body) {
+        return !effects.restitution || body.restitution < 1.0;
+      })) {
+    return "impacts";
+  }
+  const bool torque = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
+    return !body.is_static && body.torque != Vec3::Zero();
+  });
+  return effects.external && torque ? "a constant torque" : "";
+}
+
 ErrorAxis first_axis(const Scene& scene) {
-  return scene.criteria.track ? ErrorAxis::kTrajectory : ErrorAxis::kEnergy;
+  if (scene.criteria.track) return ErrorAxis::kTrajectory;
+  if (energy_changes_by(scene).empty()) return ErrorAxis::kEnergy;
+  if (scene.effects.joints) return ErrorAxis::kGap;
+  return scene.effects.contact ? ErrorAxis::kPenetration : ErrorAxis::kEnergy;
 }
 
 }  // namespace substep

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/lab/closed_form.hpp"
 #include "core/lab/energy_scale.hpp"
@@ -11,6 +12,7 @@
 #include "core/lab/joint_tree.hpp"
 #include "core/lab/planar_chain.hpp"
 #include "core/lab/slice.hpp"
+#include "core/lab/verdict.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep {
@@ -42,6 +44,14 @@ class ReferenceRun::Source {
   virtual std::optional<Sample> next(double t) = 0;
   /// Uncertainty of the positions until t [m].
   [[nodiscard]] virtual double uncertainty(double t) const = 0;
+  /// Verdict of the run if it fails, else "".
+  [[nodiscard]] virtual std::string failure() const { return ""; }
+  /// Returns to the start, for a more certain run. @param path of the completed run, by frame [m]
+  /// @return false if there is none, or it would exceed a limit
+  virtual bool refine(const std::vector<Vec3>& path) {
+    static_cast<void>(path);
+    return false;
+  }
 };
 
 namespace {
@@ -141,52 +151,86 @@ class TreeCoordinates final : public ReferenceRun::Source {
   bool fine_done_ = false;  // with the frame that the coarse one is at
 };
 
-/// The scene itself, twice.
+/// The scene itself, twice; refined, once more with twice the sub-steps.
 class FinestRun final : public ReferenceRun::Source {
  public:
   FinestRun(const std::shared_ptr<const Scene>& scene, const Budget& budget)
-      : scene_(*scene), fine_(scene), coarse_(scene) {
-    fine_.set_budget(budget);
-    coarse_.set_budget(budget);
-    Settings settings = own_settings(*scene);
-    settings.solver = SolverKind::kBpp;
-    settings.mode = Mode::kConst;
-    settings.integrator = Integrator::kLeapfrog;
-    settings.drift = Drift::kAuto;
-    settings.n = kFinest;
-    fine_.set_settings(settings);
-    settings.n = kFinest / 2;
-    coarse_.set_settings(settings);
+      : scene_(scene), budget_(budget) {
+    start();
+    coarse_ = run_of(n_ / 2);
   }
   [[nodiscard]] std::string name() const override {
-    return "finest run: bpp, leapfrog, " + std::to_string(kFinest) + " sub-steps per frame";
+    return "finest run: bpp, leapfrog, " + std::to_string(n_) + " sub-steps per frame";
   }
   std::optional<Sample> next(double) override {
-    Simulator& simulator = fine_done_ ? coarse_ : fine_;
+    Simulator& simulator = fine_done_ ? *coarse_ : *fine_;
     const FrameReport report = simulator.step_some(kPartWork);
     if (simulator.substeps_left() > 0) return std::nullopt;
-    fine_done_ = !fine_done_;
-    if (!fine_done_) return sample();
-    kinetic_ = report.kinetic;
-    return std::nullopt;
+    work_ += static_cast<double>(report.work.flops);
+    if (!fine_done_) {
+      fine_work_ += static_cast<double>(report.work.flops);
+      kinetic_ = report.kinetic;
+      verdict_->add(*scene_, fine_->state(), report);
+    }
+    if (coarse_) {
+      fine_done_ = !fine_done_;
+      if (fine_done_) return std::nullopt;
+    }
+    return sample();
   }
   [[nodiscard]] double uncertainty(double) const override { return apart_; }
+  [[nodiscard]] std::string failure() const override {
+    return verdict_->holds() ? "" : verdict_->text();
+  }
+  bool refine(const std::vector<Vec3>& path) override {
+    if (2 * n_ > ReferenceRun::kMostSubsteps) return false;
+    if (work_ + 2.0 * fine_work_ > ReferenceRun::kMostWork) return false;
+    n_ *= 2;
+    coarse_.reset();
+    coarse_path_ = path;
+    start();
+    return true;
+  }
 
  private:
+  [[nodiscard]] std::unique_ptr<Simulator> run_of(int n) const {
+    auto run = std::make_unique<Simulator>(scene_);
+    run->set_budget(budget_);
+    run->set_settings(reference_settings(*scene_, n));
+    return run;
+  }
+
+  void start() {
+    fine_ = run_of(n_);
+    verdict_.emplace(*scene_, fine_->state(), fine_->observe());
+    fine_work_ = 0.0;
+    apart_ = 0.0;
+    frame_ = 0;
+  }
+
   Sample sample() {
-    if (!scene_.criteria.track) return {Vec3::Zero(), kinetic_};
-    const auto body = index(*scene_.criteria.track);
-    const Vec3 x = fine_.state().x[body];
-    apart_ = std::max(apart_, (x - coarse_.state().x[body]).norm());
+    ++frame_;
+    if (!scene_->criteria.track) return {Vec3::Zero(), kinetic_};
+    const auto body = index(*scene_->criteria.track);
+    const Vec3 x = fine_->state().x[body];
+    const Vec3 coarse = coarse_ ? coarse_->state().x[body] : coarse_path_[frame_];
+    apart_ = std::max(apart_, (x - coarse).norm());
     return {x, kinetic_};
   }
 
-  const Scene& scene_;
-  Simulator fine_;
-  Simulator coarse_;
-  bool fine_done_ = false;  // with the frame that the coarse one is at
-  double kinetic_ = 0.0;    // of the fine one [J]
-  double apart_ = 0.0;      // [m]
+  std::shared_ptr<const Scene> scene_;
+  Budget budget_;
+  int n_ = kFinest;  // sub-steps per frame of the fine one
+  std::unique_ptr<Simulator> fine_;
+  std::unique_ptr<Simulator> coarse_;  // null once refined: then its path is known
+  std::vector<Vec3> coarse_path_;      // by frame [m]
+  std::optional<Verdict> verdict_;     // on the fine one
+  std::size_t frame_ = 0;              // of the last sample
+  bool fine_done_ = false;             // with the frame that the coarse one is at
+  double kinetic_ = 0.0;               // of the fine one [J]
+  double apart_ = 0.0;                 // [m]
+  double work_ = 0.0;                  // of all runs [operations of the solver]
+  double fine_work_ = 0.0;             // of the fine one [operations of the solver]
 };
 
 std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scene>& scene,
@@ -210,6 +254,16 @@ std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scen
 
 }  // namespace
 
+Settings reference_settings(const Scene& scene, int n) {
+  Settings settings = own_settings(scene);
+  settings.solver = SolverKind::kBpp;
+  settings.mode = Mode::kConst;
+  settings.integrator = Integrator::kLeapfrog;
+  settings.drift = Drift::kAuto;
+  settings.n = n;
+  return settings;
+}
+
 double predictable_window(const Scene& scene, double duration) {
   if (scene.criteria.window) return std::min(duration, *scene.criteria.window);
   const bool chaotic = scene.effects.contact && !closed_form(scene);
@@ -219,14 +273,13 @@ double predictable_window(const Scene& scene, double duration) {
 // References read the start from the scene's bodies, so these must hold the initial state of the
 // runs.
 ReferenceRun::ReferenceRun(std::shared_ptr<const Scene> scene, double duration,
-                           const Budget& budget)
-    : scene_(with_start_of_run(std::move(scene))), source_(source_of(scene_, budget)) {
-  reference_.source = source_->name();
+                           const Budget& budget, double required)
+    : scene_(with_start_of_run(std::move(scene))),
+      source_(source_of(scene_, budget)),
+      required_(required),
+      frames_(frames_of(*scene_, predictable_window(*scene_, duration))) {
   reference_.window = predictable_window(*scene_, duration);
-  frames_ = frames_of(*scene_, reference_.window);
-  if (scene_->criteria.track) {
-    reference_.track.push_back(scene_->bodies[index(*scene_->criteria.track)].position);
-  }
+  start();
 }
 ReferenceRun::~ReferenceRun() = default;
 ReferenceRun::ReferenceRun(ReferenceRun&&) noexcept = default;
@@ -236,7 +289,17 @@ double ReferenceRun::time_of(std::int64_t frame) const {
   return static_cast<double>(frame) * scene_->frame;
 }
 
+void ReferenceRun::start() {
+  frame_ = 0;
+  kinetic_ = 0.0;
+  reference_.track.clear();
+  if (scene_->criteria.track) {
+    reference_.track.push_back(scene_->bodies[index(*scene_->criteria.track)].position);
+  }
+}
+
 bool ReferenceRun::advance() {
+  if (done_) return false;
   if (frame_ < frames_) {
     const std::optional<Sample> sample = source_->next(time_of(frame_ + 1));
     if (!sample) return true;
@@ -244,7 +307,19 @@ bool ReferenceRun::advance() {
     kinetic_ = std::max(kinetic_, sample->kinetic);
     if (++frame_ < frames_) return true;
   }
+  complete();
+  const bool enough = best_->failure.empty() && best_->uncertainty <= required_;
+  const bool refines = !enough && std::isfinite(required_) && in_vain_ < kMostInVain &&
+                       source_->refine(reference_.track);
+  if (refines) start();
+  done_ = !refines;
+  return refines;
+}
+
+void ReferenceRun::complete() {
+  reference_.source = source_->name();
   reference_.uncertainty = source_->uncertainty(time_of(frame_));
+  reference_.failure = source_->failure();
   if (scene_->criteria.energy_scale) {
     reference_.energy_scale = *scene_->criteria.energy_scale;
     reference_.energy_scale_source = "stated by the scene";
@@ -252,16 +327,22 @@ bool ReferenceRun::advance() {
     reference_.energy_scale = kinetic_;
     reference_.energy_scale_source = "largest kinetic energy of the reference";
   }
-  return false;
+  const auto rank = [](const Reference& r) { return std::pair(!r.failure.empty(), r.uncertainty); };
+  ++in_vain_;
+  if (best_ && !(rank(reference_) < rank(*best_))) return;
+  best_ = reference_;
+  in_vain_ = 0;
 }
 
 double ReferenceRun::progress() const {
   return frames_ > 0 ? static_cast<double>(frame_) / static_cast<double>(frames_) : 1.0;
 }
 
+std::string ReferenceRun::source() const { return source_->name(); }
+
 const Reference& ReferenceRun::reference() const {
-  assert(frame_ == frames_ && "advance() until it returns false");
-  return reference_;
+  assert(done_ && "advance() until it returns false");
+  return *best_;
 }
 
 const Reference& no_reference() {

@@ -168,6 +168,12 @@ Settings base_of(const Scene& scene) {
 
 std::span<const double> map_alphas() { return kMapAlpha; }
 
+void append_defaults(std::vector<SweepPoint>& points) {
+  std::vector<Settings> all;
+  append_along(Settings{}, kAlpha, &Settings::alpha, all);
+  for (const Settings& settings : all) points.push_back({settings});
+}
+
 Settings paper_settings(const Scene& scene) {
   Settings paper = direct(base_of(scene), Integrator::kEuler);
   paper.mode = Mode::kAdaptive;

@@ -22,6 +22,9 @@ struct SweepPoint {
 /// loads if the scene has different masses. Other settings are the scene's own.
 std::vector<SweepPoint> default_sweep(const Scene& scene);
 
+/// Adds the default settings along alpha. They combine what default_sweep() varies one by one.
+void append_defaults(std::vector<SweepPoint>& points);
+
 /// Settings of the curve of the paper's method, except alpha: the direct solver, Euler, N decided
 /// once per frame by alpha alone, with a cap too large to matter; other settings of the scene are
 /// reset as in a sweep.

@@ -61,19 +61,22 @@ TEST(CommandLine, CsvHasTheColumnsOfTheScenesEffects) {
       "frame,time,substeps,discarded,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_"
       "max,dt_"
       "stable,r,leader,leader_dof,"
-      "kinetic,potential,elastic,energy,px,py,pz,lx,ly,lz,constraint_error,joint_gap,joint_rows,iterations,"
+      "kinetic,potential,elastic,energy,px,py,pz,lx,ly,lz,constraint_error,joint_gap,joint_rows,"
+      "iterations,"
       "pivots,"
       "unsolved,residual,x,y,z,ms");
-  EXPECT_EQ(header("spinning_top"),
-            "frame,time,substeps,discarded,substeps_mean,islands,asleep,substeps_wanted,capped,dt_"
-            "min,dt_max,dt_"
-            "stable,r,leader,leader_dof,"
-            "kinetic,elastic,energy,px,py,pz,lx,ly,lz,iterations,pivots,unsolved,residual,x,y,z,ms");
+  EXPECT_EQ(
+      header("spinning_top"),
+      "frame,time,substeps,discarded,substeps_mean,islands,asleep,substeps_wanted,capped,dt_"
+      "min,dt_max,dt_"
+      "stable,r,leader,leader_dof,"
+      "kinetic,elastic,energy,px,py,pz,lx,ly,lz,iterations,pivots,unsolved,residual,x,y,z,ms");
   EXPECT_EQ(header("heavy_stack"),
             "frame,time,substeps,discarded,substeps_mean,islands,asleep,substeps_wanted,capped,dt_"
             "min,dt_max,dt_"
             "stable,r,leader,leader_dof,"
-            "kinetic,potential,elastic,energy,parting,px,py,pz,lx,ly,lz,penetration,contact_rows,iterations,pivots,"
+            "kinetic,potential,elastic,energy,parting,px,py,pz,lx,ly,lz,penetration,contact_rows,"
+            "iterations,pivots,"
             "unsolved,residual,"
             "x,y,z,ms");
   EXPECT_NE(header("bridge").find("contact_rows,friction_rows,"), std::string::npos);
@@ -230,6 +233,83 @@ TEST(CommandLine, RecommendFindsTheCheapestWithinAnErrorAndTheMostExactWithinACo
       << overlap.err;
 }
 
+// A run that is accurate for half a second may fail in the next.
+TEST(CommandLine, RecommendTriesTheWholeDurationOfTheScene) {
+  Scene scene = *read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json").scene;
+  scene.criteria.duration = 1.0;
+  std::ofstream(folder() / "box.json") << write_scene(scene);
+  const std::string box = "\"" + (folder() / "box.json").string() + "\"";
+  const Outcome found = substep("recommend " + box + " --error 0.5 --seconds 0.3 --out " + box);
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_NE(found.out.find("runs hold for 0.3 s"), std::string::npos) << found.out;
+  EXPECT_NE(found.out.find("Cheaper, but no recommendation: bpp, const, euler, n = 1 fails at 0.3"),
+            std::string::npos)
+      << found.out;
+  EXPECT_NE(found.out.find("It holds for 1 s. Errors and costs are those of the first 0.3 s."),
+            std::string::npos)
+      << found.out;
+  const auto kept = read_scene_file((folder() / "box.json").string()).scene;
+  ASSERT_NE(kept, nullptr);
+  ASSERT_TRUE(kept->recommended.has_value());
+  EXPECT_NE(kept->recommended->why.find("It holds for 1 s, a cheaper one does not."),
+            std::string::npos)
+      << kept->recommended->why;
+  EXPECT_EQ(lines_of(substep("run " + box).out).back(), "holds");
+}
+
+TEST(CommandLine, RecommendChoosesABodyIfNoneIsTracked) {
+  const auto scene_of = [](const std::string& bodies) {
+    return R"({"format": "substep-scene", "version": 2, "name": "own", "title": "Own",
+               "criteria": {"duration": 1}, "bodies": [)" +
+           bodies + "]}";
+  };
+  const std::string own = "\"" + (folder() / "own.json").string() + "\"";
+  std::ofstream(folder() / "own.json") << scene_of(
+      R"({"name": "floor", "static": true, "shape": {"type": "plane"}, "position": [0, 0, 0]},
+         {"name": "slow", "shape": {"type": "sphere", "radius": 0.1}, "mass": 1,
+          "position": [3, 0.3, 0]},
+         {"name": "fast", "shape": {"type": "sphere", "radius": 0.1}, "mass": 1,
+          "position": [0, 1, 0], "velocity": [4, 0, 0]})");
+  const Outcome found = substep("recommend " + own + " --error 1e-3 --out " + own);
+  EXPECT_EQ(found.exit_code, 0) << found.out << found.err;
+  EXPECT_NE(found.out.find("No body is tracked: the path of 'fast' is compared."),
+            std::string::npos)
+      << found.out;
+  const auto kept = read_scene_file((folder() / "own.json").string()).scene;
+  ASSERT_NE(kept, nullptr);
+  EXPECT_EQ(kept->criteria.track, 2) << "what the recommendation is about";
+  const Outcome energy = substep("recommend " + own + " --of energy");
+  EXPECT_NE(energy.out.find("The true motion does not keep its energy (impacts)"),
+            std::string::npos)
+      << energy.out;
+
+  std::ofstream(folder() / "own.json") << scene_of(
+      R"({"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "mass": 1,
+          "position": [3, 0.3, 0]})");
+  const Outcome none = substep("recommend " + own + " --seconds 0");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("no body leaves its place"), std::string::npos) << none.err;
+}
+
+TEST(CommandLine, RecommendPromisesNoMoreThanTheReferenceAllows) {
+  const std::string file = "\"" + (folder() / "rocker.json").string() + "\"";
+  const Outcome found = substep("recommend crank_rocker --error 1e-12 --seconds 0.2 --out \"" +
+                                (folder() / "none.json").string() + "\"");
+  EXPECT_EQ(found.exit_code, 1) << found.out;
+  EXPECT_NE(found.out.find("4096 sub-steps per frame) is uncertain by "), std::string::npos)
+      << found.out;
+  EXPECT_NE(found.out.find("m are not promised."), std::string::npos) << found.out;
+  EXPECT_FALSE(fs::exists(folder() / "none.json")) << "it is not what was asked for";
+
+  Scene scene = *read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/crank_rocker.json").scene;
+  scene.criteria.joint_gap = 1e-12;
+  std::ofstream(folder() / "rocker.json") << write_scene(scene);
+  const Outcome failed = substep("recommend " + file + " --error 1e-3 --seconds 0.2");
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.out.find("No error of the path can be promised"), std::string::npos)
+      << failed.out;
+}
+
 TEST(CommandLine, RecommendWritesTheSceneThatStartsWithIt) {
   const std::string rope = "\"" + (folder() / "rope.json").string() + "\"";
   ASSERT_EQ(substep("generate rope --links 3 --out " + rope).exit_code, 0);
@@ -284,7 +364,8 @@ TEST(CommandLine, RecommendWritesTheSceneThatStartsWithIt) {
             1);
   EXPECT_FALSE(fs::exists(folder() / "none.json"));
   EXPECT_EQ(substep("recommend pendulum --ms 1 --out " + none).exit_code, 2);
-  EXPECT_EQ(substep("recommend pendulum --all").exit_code, 2);
+  EXPECT_EQ(substep("recommend pendulum --all --error 1").exit_code, 2);
+  EXPECT_NE(substep("recommend pendulum --all").out.find("\"pendulum\""), std::string::npos);
   EXPECT_EQ(substep("recommend --all --seconds 1").exit_code, 2);
   EXPECT_EQ(substep("recommend").exit_code, 2);
 }

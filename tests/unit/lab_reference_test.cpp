@@ -213,5 +213,50 @@ TEST(Reference, WithoutAnExactMotionTheFinestRunStatesItsUncertainty) {
   EXPECT_EQ(predictable_window(scene, 3.0), 3.0) << "no longer than the run";
 }
 
+Reference refined(const Scene& scene, double duration, double required) {
+  ReferenceRun run(std::make_shared<const Scene>(scene), duration, {}, required);
+  while (run.advance()) EXPECT_LE(run.progress(), 1.0);
+  EXPECT_FALSE(run.advance()) << "it is done";
+  return run.reference();
+}
+
+TEST(Reference, IsRefinedUntilItIsAsCertainAsRequired) {
+  const Scene scene = scenes::crank_rocker();
+  const Reference plain = find_reference(std::make_shared<const Scene>(scene), 0.5);
+  EXPECT_EQ(plain.source, "finest run: bpp, leapfrog, 256 sub-steps per frame");
+  ASSERT_GT(plain.uncertainty, 0.0);
+  const Reference fine = refined(scene, 0.5, 0.02 * plain.uncertainty);
+  EXPECT_LE(fine.uncertainty, 0.02 * plain.uncertainty);
+  EXPECT_EQ(fine.source, "finest run: bpp, leapfrog, 2048 sub-steps per frame");
+  ASSERT_EQ(fine.track.size(), plain.track.size());
+  double apart = 0.0;
+  for (std::size_t i = 0; i < fine.track.size(); ++i) {
+    apart = std::max(apart, (fine.track[i] - plain.track[i]).norm());
+  }
+  EXPECT_GT(apart, 0.0);
+  EXPECT_LE(apart, plain.uncertainty) << "the uncertainty was no promise too much";
+  const Reference same = refined(scene, 0.5, plain.uncertainty);
+  EXPECT_EQ(same.source, plain.source) << "as certain as required";
+  EXPECT_EQ(same.track, plain.track);
+}
+
+TEST(Reference, IsTheMostCertainRunIfNoneIsAsCertainAsRequired) {
+  const Reference plain =
+      find_reference(std::make_shared<const Scene>(scenes::bouncing_balls()), 2.0);
+  const Reference fine = refined(scenes::bouncing_balls(), 2.0, 1e-15);
+  EXPECT_LE(fine.uncertainty, plain.uncertainty);
+  EXPECT_GT(fine.uncertainty, 1e-15);
+  // An exact motion has nothing to refine.
+  EXPECT_EQ(refined(scenes::pendulum(), 0.5, 1e-15).source, "exact: minimal coordinates, 1 angle");
+}
+
+TEST(Reference, ARunThatFailsSaysSo) {
+  Scene scene = scenes::crank_rocker();
+  EXPECT_EQ(refined(scene, 0.2, 1.0).failure, "");
+  scene.criteria.joint_gap = 1e-12;
+  const Reference failed = refined(scene, 0.2, 1e-3);
+  EXPECT_NE(failed.failure.find("joint gap"), std::string::npos) << failed.failure;
+}
+
 }  // namespace
 }  // namespace substep::test

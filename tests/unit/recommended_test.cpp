@@ -194,6 +194,25 @@ TEST(Recommended, IsTheCheapestWithinTheError) {
       << "it was not measured";
 }
 
+TEST(Recommended, PassesOverRunsThatFailedLater) {
+  const std::vector<Result> results{run_of(PaperSettings{.alpha = 0.1}, 300.0, 2e-4),
+                                    run_of(PaperSettings{.alpha = 0.2}, 200.0, 3e-4),
+                                    run_of(PaperSettings{.alpha = 0.3}, 100.0, 4e-4)};
+  const auto of = [&](const Tried& tried) {
+    return recommended_of(results, ErrorAxis::kTrajectory, 1e-3, tried);
+  };
+  const std::string plain = "The cheapest of 3 runs, 3 of which hold; it is the paper's method.";
+  EXPECT_EQ(of({3.0, 0})->why, plain) << "no longer than the compared runs";
+  EXPECT_EQ(of({10.0, 0})->why, plain + " It holds for 10 s.");
+  EXPECT_EQ(of({10.0, 0})->seconds, 3.0) << "the time of its error and cost";
+  EXPECT_EQ(of({10.0, 1})->settings.alpha, 0.2);
+  EXPECT_EQ(of({10.0, 1})->reached, 3e-4);
+  EXPECT_EQ(of({10.0, 2})->settings.alpha, 0.1);
+  EXPECT_FALSE(of({10.0, 3}).has_value());
+  const std::string held = of({10.0, 2})->why;
+  EXPECT_NE(held.find(" It holds for 10 s, 2 cheaper ones do not."), std::string::npos) << held;
+}
+
 TEST(Recommended, IsThePresetOfItsScene) {
   const Scene scene = with_recommended(scenes::pendulum(), some_recommended());
   const auto presets = presets_for(scene);

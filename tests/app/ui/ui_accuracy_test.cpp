@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/ui/curve_style.hpp"
+#include "core/model/format_text.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/app/ui/ui_sweep.hpp"
 
@@ -197,6 +198,41 @@ TEST(Accuracy, TheCheapestSettingIsStoredForTheScene) {
   Settings settings = h.app->session.settings();
   settings.watch_stiffness = false;
   EXPECT_EQ(settings, found->settings);
+}
+
+// The runs of a shipped sweep may be shorter than the scene.
+TEST(Accuracy, AKeptSettingHasHeldForTheWholeDurationOfTheScene) {
+  Headless h;
+  h.app->open("newtons_cradle");
+  ASSERT_EQ(h.app->set("panel", "accuracy"), "");
+  h.resize(1280.0F, 1600.0F, 1.0F);  // all of the panel
+  h.frames(3);
+  Accuracy& accuracy = h.app->accuracy;
+  ASSERT_TRUE(accuracy.shipped());
+  const double whole = accuracy.scene()->criteria.duration;
+  ASSERT_LT(accuracy.experiments().front().duration, whole);
+  ASSERT_EQ(accuracy.error, ErrorAxis::kTrajectory);
+  const double uncertainty = accuracy.reference()->uncertainty;
+  ASSERT_GT(uncertainty, 0.0);
+  accuracy.wanted[0] = 9.0 * uncertainty;
+  EXPECT_FALSE(accuracy.can_promise());
+  accuracy.wanted[0] = 50.0 * uncertainty;
+  EXPECT_TRUE(accuracy.can_promise());
+  accuracy.try_whole();
+  ASSERT_TRUE(accuracy.trying());
+  EXPECT_TRUE(accuracy.busy());
+  accuracy.cancel_trial();
+  EXPECT_FALSE(accuracy.trying());
+  h.frames(2);
+  EXPECT_EQ(h.app->session.scene().name, "newtons_cradle") << "nothing is kept";
+  h.press("Keep for this scene");
+  for (int i = 0; i < 100000 && accuracy.trying(); ++i) accuracy.advance(0.05);
+  h.frames(2);
+  const Scene& kept = h.app->session.scene();
+  EXPECT_EQ(kept.name, "newtons_cradle_own");
+  ASSERT_TRUE(kept.recommended.has_value());
+  EXPECT_NE(kept.recommended->why.find(format_text(" It holds for %g s", whole)), std::string::npos)
+      << kept.recommended->why;
 }
 
 TEST(Accuracy, SlicesAreBoundedAndCancelStopsAtOnce) {

@@ -13,6 +13,7 @@ export const ladder = {
   swinging_box: [...iterate(10, 2, 8, 16, 32)],
   bridge: [...iterate(10, 2, 4, 8, 16, 32)],
   stack: [...iterate(10, 2, 8, 32), ...iterate(200, 50, 8)],
+  energy: [...iterate(10, 2, 4, 8, 16, 32, 64), ...iterate(40, 10, 8)],
   in_space: [...iterate(10, 2, 4, 8, 16, 32)],
 };
 
@@ -150,13 +151,23 @@ export async function build(scene, setting) {
   const world = Jolt.Body.prototype.sFixedToWorld;
   for (const joint of scene.joints) addJoint(system, joint, (i) => (i < 0 ? world : rigid[i]));
   return {
-    step: () => jolt.Step(scene.frame, setting.steps),
+    steps: setting.steps,
+    step: () => jolt.Step(scene.frame / setting.steps, 1),
     poses() {
       return rigid.flatMap((body) => {
         const x = body.GetPosition();
         const values = [x.GetX(), x.GetY(), x.GetZ()];
         const q = body.GetRotation();
         return [...values, q.GetW(), q.GetX(), q.GetY(), q.GetZ()];
+      });
+    },
+    lag: 0.5, // semi-implicit Euler: the velocity of the middle of the last step
+    velocities() {
+      return rigid.flatMap((body) => {
+        const v = body.GetLinearVelocity();
+        const values = [v.GetX(), v.GetY(), v.GetZ()];
+        const w = body.GetAngularVelocity();
+        return [...values, w.GetX(), w.GetY(), w.GetZ()];
       });
     },
     free: () => Jolt.destroy(jolt),

@@ -1,17 +1,24 @@
-// Errors and verdicts of a run, from its poses only and the same for every engine.
+// Errors and verdicts of a run, from its poses and, for energies, its velocities: the same for every
+// engine.
 
 import { add, conjugate, dot, length, rotate, subtract } from "./rotation.mjs";
 
 const kNumbers = 7; // per pose: x y z, w x y z
+const kRates = 6; // per body: its velocity, its angular velocity in the world's axes
 
-/** @param text lines of "milliseconds pose pose ..." @return {ms, poses} of every frame */
-export function readFrames(text) {
+/**
+ * @param text lines of "milliseconds pose pose ... rates rates ..."
+ * @param bodies their number
+ * @return {ms, poses, rates} of every frame
+ */
+export function readFrames(text, bodies) {
   return text
     .trim()
     .split("\n")
     .map((line) => {
-      const [ms, ...poses] = line.split(" ").map(Number);
-      return { ms, poses };
+      const [ms, ...values] = line.split(" ").map(Number);
+      const end = kNumbers * bodies;
+      return { ms, poses: values.slice(0, end), rates: values.slice(end) };
     });
 }
 
@@ -20,6 +27,23 @@ export function median(values) {
   const half = sorted.length >> 1;
   return sorted.length % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
 }
+
+/** Energies of the moving bodies [J]. */
+function energies(scene, { poses, rates }) {
+  const sum = { kinetic: 0, potential: 0 };
+  scene.bodies.forEach(({ fixed, mass, inertia }, i) => {
+    if (fixed) return;
+    const [v, w] = [0, 3].map((start) => rates.slice(kRates * i + start, kRates * i + start + 3));
+    const local = rotate(conjugate(orientation(poses, i)), w);
+    sum.kinetic += (mass * dot(v, v) + dot(local, local.map((x, k) => inertia[k] * x))) / 2;
+    sum.potential -= mass * dot(scene.gravity, position(poses, i));
+  });
+  return sum;
+}
+
+/** The largest kinetic energy at the end of a frame [J]. */
+export const largestKinetic = (scene, frames) =>
+  frames.reduce((most, frame) => Math.max(most, energies(scene, frame).kinetic), 0);
 
 const position = (poses, body) => poses.slice(kNumbers * body, kNumbers * body + 3);
 const orientation = (poses, body) => poses.slice(kNumbers * body + 3, kNumbers * (body + 1));
@@ -150,15 +174,38 @@ function stack(scene, frames) {
   };
 }
 
+/** Error: the largest change of the energy, which is constant, as a share of the largest kinetic one. */
+function energy(scene, frames, { path, kinetic }) {
+  const start = { poses: scene.bodies.flatMap(({ x, q }) => [...x, ...q]) };
+  start.rates = scene.bodies.flatMap(({ v, w }) => [...v, ...w]);
+  const total = (frame) => Object.values(energies(scene, frame)).reduce((sum, x) => sum + x);
+  const changes = frames.map((frame) => (total(frame) - total(start)) / kinetic);
+  const lost = changes.findIndex((change) => !(Math.abs(change) < 1));
+  const how = changes[lost] > 0 ? "gains" : "loses";
+  const body = indexOf(scene, scene.criteria.track);
+  const distances = path.map((x, i) => length(subtract(position(frames[i].poses, body), x)));
+  return {
+    failure: lost < 0 ? null : `${how} as much energy as there is at ${seconds(scene, lost)}`,
+    error: Math.max(...changes.map(Math.abs)),
+    other: Math.max(...distances),
+    rise: Math.max(0, ...changes),
+    drift: changes.at(-1),
+    gap: largest(frames, (poses) => jointGap(scene, poses)),
+    costFrames: frames,
+  };
+}
+
 /**
- * @param kind swinging_box, in_space, bridge or stack
- * @param exact positions of the tracked body after every frame, if known [m]
- * @return failure (null if the scene holds), error [m], other [m], ms: median cost of a frame
+ * @param kind swinging_box, in_space, bridge, stack or energy
+ * @param exact positions of the tracked body after every frame, if known [m]; of kind energy path, such
+ * positions as long as they are compared, and kinetic, the largest kinetic energy [J]
+ * @return failure (null if the scene holds), error [m, of kind energy -], other [m], ms: median cost of a
+ * frame; of kind energy also rise, drift [-] and gap [m]
  */
 export function judge(kind, scene, frames, exact) {
   const failure = whyBroken(scene, frames);
   if (failure) return { failure };
-  const rules = { swinging_box: swingingBox, in_space: inSpace, bridge, stack };
+  const rules = { swinging_box: swingingBox, in_space: inSpace, bridge, stack, energy };
   const { costFrames, ...result } = rules[kind](scene, frames, exact);
   return { ...result, ms: median(costFrames.map(({ ms }) => ms)) };
 }

@@ -2,8 +2,15 @@
 // in maximal ones (free bodies and equality constraints).
 
 import loadMujoco from "@mujoco/mujoco";
-import { collisionBits, foreignJoint, jointTree, relativeSlide, relativeTurn } from "./scene.mjs";
-import { between, conjugate, dot, multiply, rotate, subtract } from "./rotation.mjs";
+import {
+  collisionBits,
+  foreignJoint,
+  jointTree,
+  loopJoints,
+  relativeSlide,
+  relativeTurn,
+} from "./scene.mjs";
+import { add, between, conjugate, cross, dot, multiply, rotate, subtract } from "./rotation.mjs";
 
 export const title = "MuJoCo";
 
@@ -19,6 +26,8 @@ const maximal = (integrator, timeconst, impedance, ...counts) =>
     timeconst,
     impedance,
   }));
+/** A loop in reduced coordinates, closed by an equality. */
+const closed = (...args) => maximal(...args).map((setting) => ({ ...setting, coordinates: "reduced" }));
 /** First order and cheap; without damping they differ in maximal coordinates only. */
 const kCheap = ["Euler", "implicitfast", "discrete"];
 
@@ -41,6 +50,19 @@ export const ladder = {
     ...maximal(integrator, 2, 0.99999, 8, 16),
     ...maximal(integrator, 4, 0.9999, 32),
   ]),
+  crank_rocker: [
+    ...kCheap.flatMap((integrator) => closed(integrator, 2, 0.9999, 8, 32)),
+    ...kCheap.flatMap((integrator) => maximal(integrator, 2, 0.9999, 16, 32)),
+    ...closed("RK4", 2, 0.9999, 4, 8, 16),
+    ...closed("RK4", 6, 0.9999, 2, 4, 8, 16, 32),
+    ...maximal("RK4", 2, 0.9999, 8, 16, 32),
+  ],
+  thrown_rope: [
+    ...["Euler", "implicit", "RK4"].flatMap((integrator) => reduced(integrator, 8, 16, 32, 64)),
+    ...reduced("RK4", 128),
+    ...kCheap.flatMap((integrator) => maximal(integrator, 2, 0.9999, 8, 16, 32)),
+    ...maximal("RK4", 2, 0.9999, 8, 16, 32, 64),
+  ],
   in_space: [
     ...[...kCheap, "implicit", "RK4"].flatMap((integrator) => reduced(integrator, 2, 4, 8, 16, 32)),
     ...[...kCheap, "RK4"].flatMap((integrator) => maximal(integrator, 2, 0.9999, 4, 8, 16, 32)),
@@ -106,11 +128,20 @@ function reducedWorld(scene) {
   return roots.map((link) => nestedBody(scene, tree, link)).join("\n");
 }
 
-/** One point per ball joint, two points on the axis of a hinge. */
-function equalities(scene) {
+/** Whether bodies in reduced coordinates can move in a plane only: all hinges are parallel. */
+function planar(scene) {
+  const axes = scene.joints.map(({ a, axisA }) => axisA && rotate(scene.bodies[a].q, axisA));
+  return axes.every((axis) => axis && Math.abs(dot(axis, axes[0])) > 1 - 1e-12);
+}
+
+/** One point per ball joint, two points on the axis of a hinge. In reduced coordinates only joints that
+ *  close loops; in a plane one point of each. */
+function equalities(scene, isReduced) {
   const name = (i) => (i < 0 ? "world" : `b${i}`);
-  return scene.joints.flatMap(({ type, a, b, anchorA, axisA }) =>
-    (type === "hinge" ? [-0.5, 0.5] : [0]).map((along) => {
+  const single = isReduced && planar(scene);
+  const joints = isReduced ? loopJoints(scene) : scene.joints;
+  return joints.flatMap(({ type, a, b, anchorA, axisA }) =>
+    (type === "hinge" && !single ? [-0.5, 0.5] : [0]).map((along) => {
       const point = anchorA.map((x, i) => x + along * (axisA?.[i] ?? 0));
       return `<connect body1="${name(a)}" body2="${name(b)}" anchor="${text(point)}"/>`;
     }),
@@ -133,7 +164,7 @@ function xml(scene, setting) {
       <flag refsafe="disable"/></option>
     <default><geom ${soft}/><equality ${soft}/></default>
     <worldbody>${fixed}${moving}</worldbody>
-    ${isReduced ? "" : `<equality>${equalities(scene).join("\n")}</equality>`}
+    <equality>${equalities(scene, isReduced).join("\n")}</equality>
   </mujoco>`;
 }
 
@@ -166,10 +197,10 @@ export async function build(scene, setting) {
   );
   const start = setting.coordinates === "reduced" ? reducedStart(scene) : freeStart(scene);
   for (const { body, qvel } of start) data.qvel.set(qvel, model.body_dofadr[id[body]]);
+  const root = id.map((b) => model.body_rootid[b]);
   return {
-    step() {
-      for (let i = 0; i < setting.substeps; ++i) mujoco.mj_step(model, data);
-    },
+    steps: setting.substeps,
+    step: () => mujoco.mj_step(model, data),
     /** xpos is that of the start of the last step until the kinematics are recomputed. */
     poses() {
       mujoco.mj_kinematics(model, data);
@@ -178,6 +209,20 @@ export async function build(scene, setting) {
         ...xpos.subarray(3 * b, 3 * b + 3),
         ...xquat.subarray(4 * b, 4 * b + 4),
       ]);
+    },
+    /** RK4 has velocities at the time of the poses, the others at the middle of the last step. */
+    lag: setting.integrator === "RK4" || setting.coordinates === "reduced" ? 0 : 0.5,
+    /** cvel holds the velocity of the point of a body that is at the centre of mass of its tree. */
+    velocities() {
+      mujoco.mj_kinematics(model, data);
+      mujoco.mj_comPos(model, data);
+      mujoco.mj_comVel(model, data);
+      const { cvel, xipos, subtree_com: centre } = data;
+      const at = (values, i) => [...values.subarray(3 * i, 3 * i + 3)];
+      return id.flatMap((b, i) => {
+        const [w, v] = [at(cvel, 2 * b), at(cvel, 2 * b + 1)];
+        return [...add(v, cross(w, subtract(at(xipos, b), at(centre, root[i])))), ...w];
+      });
     },
     free() {
       data.delete();

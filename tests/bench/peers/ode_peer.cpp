@@ -79,17 +79,17 @@ class World {
     dWorldDestroy(world_);
   }
 
+  [[nodiscard]] int steps() const { return settings_.substeps; }
+
   void step() {
     const double dt = scene_->frame / settings_.substeps;
-    for (int i = 0; i < settings_.substeps; ++i) {
-      if (scene_->effects.contact) dSpaceCollide(space_, this, &World::near);
-      if (settings_.direct) {
-        dWorldStep(world_, dt);
-      } else {
-        dWorldQuickStep(world_, dt);
-      }
-      dJointGroupEmpty(contacts_);
+    if (scene_->effects.contact) dSpaceCollide(space_, this, &World::near);
+    if (settings_.direct) {
+      dWorldStep(world_, dt);
+    } else {
+      dWorldQuickStep(world_, dt);
     }
+    dJointGroupEmpty(contacts_);
   }
 
   void poses(bench::PeerFrame& frame) const {
@@ -103,6 +103,19 @@ class World {
       const dReal* q = dBodyGetQuaternion(bodies_[i]);
       frame.x.emplace_back(x[0], x[1], x[2]);
       frame.q.emplace_back(q[0], q[1], q[2], q[3]);
+    }
+  }
+
+  /// Semi-implicit Euler: a velocity is that of the middle of the step that ends at the pose.
+  [[nodiscard]] static double lag() { return 0.5; }
+
+  void velocities(bench::PeerFrame& frame) const {
+    for (const dBodyID body : bodies_) {
+      const dReal none[3] = {};
+      const dReal* v = body ? dBodyGetLinearVel(body) : none;
+      const dReal* w = body ? dBodyGetAngularVel(body) : none;
+      frame.v.emplace_back(v[0], v[1], v[2]);
+      frame.w.emplace_back(w[0], w[1], w[2]);
     }
   }
 

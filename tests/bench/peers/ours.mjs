@@ -5,6 +5,8 @@ const leapfrog = (n) => ({ mode: "const", n, integrator: "leapfrog", drift_order
 const stormer = (n) => ({ mode: "const", n, integrator: "stormer" });
 const adaptive_stormer = (alpha) => ({ mode: "adaptive", alpha, integrator: "stormer" });
 const euler = (n) => ({ mode: "const", n });
+const steady = (n) => ({ preset: "steady", mode: "const", n });
+const leapfrog_full = (n) => ({ mode: "const", n, integrator: "leapfrog", drift: "full" });
 const blend = (n_cap, more) => ({ mode: "blend", n_cap, ...more });
 const inertia = (n_cap) => ({ mode: "inertia", n_cap, integrator: "leapfrog" });
 const newton = (forces, n, iterations) => ({
@@ -46,6 +48,16 @@ export const ladder = {
     adaptive_stormer(0.1),
     inertia(1),
     ...[4, 8].map((n) => newton("numerov", n, 2)),
+  ],
+  energy: [
+    { preset: "paper" },
+    { preset: "steady" },
+    { preset: "steady", alpha: 0.025 },
+    ...[6, 7, 8, 16, 32, 64, 96, 128].map(steady),
+    ...[8, 16, 32].map(leapfrog_full),
+    ...[4, 8, 16, 32].map(stormer),
+    adaptive_stormer(0.1),
+    ...[8, 16].map((n) => newton("numerov", n, 2)),
   ],
   stack: [...[1, 2, 4].map(euler), { mode: "damping" }, blend(1), kPaper],
 };

@@ -39,6 +39,13 @@ double now_ms() {
   return std::chrono::duration<double, std::milli>(time).count();
 }
 
+void synchronise(PeerFrame& frame, const PeerFrame& next, double lag) {
+  for (std::size_t i = 0; i < frame.v.size(); ++i) {
+    frame.v[i] += lag * (next.v[i] - frame.v[i]);
+    frame.w[i] += lag * (next.w[i] - frame.w[i]);
+  }
+}
+
 void print(const std::vector<PeerFrame>& frames) {
   for (const PeerFrame& frame : frames) {
     std::printf("%.6g", frame.milliseconds);
@@ -47,6 +54,11 @@ void print(const std::vector<PeerFrame>& frames) {
       const Quat& q = frame.q[i];
       std::printf(" %.12g %.12g %.12g %.12g %.12g %.12g %.12g", x.x(), x.y(), x.z(), q.w(), q.x(),
                   q.y(), q.z());
+    }
+    for (std::size_t i = 0; i < frame.x.size(); ++i) {
+      for (const Vec3& rate : {frame.v[i], frame.w[i]}) {
+        std::printf(" %.12g %.12g %.12g", rate.x(), rate.y(), rate.z());
+      }
     }
     std::printf("\n");
   }

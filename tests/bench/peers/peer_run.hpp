@@ -31,21 +31,44 @@ struct PeerFrame {
   double milliseconds = 0.0;  // of physics
   std::vector<Vec3> x;        // centres of mass, in the order of the scene file [m]
   std::vector<Quat> q;        // q_WB
+  std::vector<Vec3> v;        // [m/s]
+  std::vector<Vec3> w;        // angular velocities, world axes [rad/s]
 };
 
-/// A line per frame: milliseconds, then x y z, w x y z of every body.
+/// A line per frame: milliseconds, then x y z, w x y z of every body, then the two velocities of
+/// every body.
 void print(const std::vector<PeerFrame>& frames);
 
-/// @param world has step(), one frame of physics, and poses(PeerFrame&)
+/// Replaces velocities that are older than the poses by those at the time of the poses.
+/// @param lag their age, as a share of a step [-]  @param next the velocities a step later
+void synchronise(PeerFrame& frame, const PeerFrame& next, double lag);
+
+/// @param world has steps(), the number of steps in a frame; step(), one of them; lag(), the age of
+/// its velocities when it has stepped, as a share of a step; poses(PeerFrame&) and
+/// velocities(PeerFrame&)
 template <class World>
 std::vector<PeerFrame> simulate(World& world, int count) {
   std::vector<PeerFrame> frames(static_cast<std::size_t>(count));
-  for (PeerFrame& frame : frames) {
+  const auto timed = [&world](int steps) {
     const double start = now_ms();
-    world.step();
-    frame.milliseconds = now_ms() - start;
-    world.poses(frame);
+    for (int i = 0; i < steps; ++i) world.step();
+    return now_ms() - start;
+  };
+  const auto finish = [&world](PeerFrame& frame) {
+    PeerFrame next;
+    world.velocities(next);
+    synchronise(frame, next, world.lag());
+  };
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].milliseconds = timed(1);
+    if (i > 0) finish(frames[i - 1]);
+    frames[i].milliseconds += timed(world.steps() - 1);
+    world.poses(frames[i]);
+    world.velocities(frames[i]);
   }
+  if (frames.empty()) return frames;
+  world.step();
+  finish(frames.back());
   return frames;
 }
 

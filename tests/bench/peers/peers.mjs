@@ -9,7 +9,8 @@ import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { chain } from "./chain.mjs";
 import { crane } from "./crane.mjs";
-import { judge, median, readFrames } from "./measures.mjs";
+import { fourBarPath } from "./four_bar.mjs";
+import { judge, largestKinetic, median, readFrames } from "./measures.mjs";
 import * as ode from "./ode.mjs";
 import * as ours from "./ours.mjs";
 import { readScene } from "./scene.mjs";
@@ -34,8 +35,12 @@ const kNode = [process.execPath, "--no-liftoff"];
 const kSlack = 0.8; // uncertainty of a cost from the single run of the search, on a shared machine [-]
 const kLimit = 120e3; // of one run [ms]
 
+const kCompared = 1; // part of an energy scene in which paths are compared [s]
+const kFinest = { preset: "steady", mode: "const", n: 256 };
+
 /** The scenes. kind selects the measures; aim, if given, is the factor by which we want to be cheaper
- *  than every peer at an error no larger. All but the chain and the crane are scene files. The
+ *  than every peer at an error no larger; exact, the path of the tracked body where the lab has no
+ *  reference. All but the chain and the crane are scene files. The
  *  regularisation of the moved stacks models finite precision; only this project has it, and it only
  *  increases its error, so it is removed. */
 const kScenes = [
@@ -43,6 +48,8 @@ const kScenes = [
   { title: "Spherical pendulum", kind: "in_space", file: "spherical_pendulum" },
   { title: "Chain in space", kind: "in_space", file: "chain", make: chain },
   { title: "Crane", kind: "in_space", file: "crane", make: crane },
+  { title: "Crank and rocker", kind: "energy", file: "crank_rocker", exact: fourBarPath },
+  { title: "Thrown rope", kind: "energy", file: "thrown_rope" },
   { title: "Bridge", kind: "bridge", file: "bridge", aim: 10 },
   { title: "Heavy stack", kind: "stack", file: "heavy_stack", aim: 4 },
   { title: "Heavy stack, balls moved by 2 mm", kind: "stack", file: "heavy_stack_stress", aim: 4 },
@@ -53,11 +60,13 @@ function shipped(name) {
   return JSON.parse(readFileSync(path.join(root, "scenes", `${name}.json`), "utf8"));
 }
 
-function writeScene({ file, make = () => shipped(file) }) {
+function writeScene({ kind, file, make = () => shipped(file) }) {
   const scene = make();
   delete scene.regularisation;
+  if (kind === "energy") Object.assign(scene.criteria, { joint_gap: 0.1, window: kCompared });
   const written = path.join(out, `${file}.json`);
   writeFileSync(written, JSON.stringify(scene));
+  if (kind === "energy") writeFileSync(written, runProgram("consistent_start", written));
   return written;
 }
 
@@ -104,11 +113,30 @@ function known(what, names = [], allowed) {
 
 const built = (preset, name) => path.join(root, "build", preset, "tests/bench/peers", name);
 
-/** Positions of the tracked body after every frame [m], for the kinds whose error depends on them. */
-function exactPath(kind, file) {
-  if (kind === "bridge" || kind === "stack") return null;
-  const lines = execFileSync(built("release", "exact_path"), [file], { encoding: "utf8" });
+/** The output of a native program of the build. */
+function runProgram(name, ...args) {
+  const options = { encoding: "utf8", maxBuffer: 1 << 28 };
+  return execFileSync(built("release", name), args.map(String), options);
+}
+
+/** Positions of the tracked body after every frame [m], from the lab. */
+function labPath({ path }) {
+  const lines = runProgram("exact_path", path);
   return lines.trim().split("\n").map((line) => line.split(" ").map(Number));
+}
+
+const frameCount = (scene, seconds) => Math.round(seconds / scene.frame);
+
+/** What judge() compares a run with, for the kinds that need it. */
+function findExact(kind, scene, exact = labPath) {
+  if (kind === "bridge" || kind === "stack") return null;
+  if (kind !== "energy") return labPath(scene);
+  const frames = frameCount(scene, scene.criteria.duration);
+  const finest = runProgram("substep_peer", scene.path, frames, 0, ...assignments(kFinest));
+  return {
+    path: exact(scene, frameCount(scene, kCompared)),
+    kinetic: largestKinetic(scene, readFrames(finest, scene.bodies.length)),
+  };
 }
 
 async function engines() {
@@ -125,7 +153,7 @@ async function engines() {
 /** One run in its own process: an engine that aborts does not end the bench. */
 function run(entry, warmUp) {
   const { engine, scene, setting, kind, exact } = entry;
-  const frames = Math.round(scene.criteria.duration / scene.frame);
+  const frames = frameCount(scene, scene.criteria.duration);
   const [command, ...args] = engine.command(scene.path, frames, warmUp, setting).map(String);
   const result = spawnSync(command, args, { encoding: "utf8", maxBuffer: 1 << 28, timeout: kLimit });
   if (result.error?.code === "ETIMEDOUT") return { failure: `over ${kLimit / 1e3} s` };
@@ -133,7 +161,7 @@ function run(entry, warmUp) {
     const why = (result.stderr || String(result.error ?? result.signal)).trim().split("\n");
     return { failure: `stops: ${why.find((line) => /error/i.test(line)) ?? why[0]}` };
   }
-  return judge(kind, scene, readFrames(result.stdout), exact);
+  return judge(kind, scene, readFrames(result.stdout, scene.bodies.length), exact);
 }
 
 /**
@@ -147,6 +175,13 @@ function frontier(entries, slack) {
   return holding.filter((entry) => !holding.some((other) => beats(other, entry)));
 }
 
+/** The frontier, and our named settings that hold. */
+function shown(entries, slack) {
+  const front = frontier(entries, slack);
+  const named = ({ setting, failure }) => !failure && Object.keys(setting).join() === "preset";
+  return entries.filter((entry) => front.includes(entry) || named(entry));
+}
+
 /** Whether every run of an engine stopped: it is not built or not written as it is now. */
 function neverRuns(engine, entries) {
   const own = entries.filter((entry) => entry.engine === engine && !entry.lacking);
@@ -158,10 +193,10 @@ function progress(text) {
 }
 
 function search({ title, kind, ...source }, list, count) {
-  const scene = readScene(writeScene(source));
-  const exact = exactPath(kind, scene.path);
+  const scene = readScene(writeScene({ kind, ...source }));
+  const exact = findExact(kind, scene, source.exact);
   return list.flatMap((engine) =>
-    engine.ladder[kind].slice(0, count).map((setting) => {
+    (engine.ladder[source.file] ?? engine.ladder[kind]).slice(0, count).map((setting) => {
       progress(`${title}: ${engine.title}, ${assignments(setting).join(" ")}`);
       const entry = { engine, scene, setting, kind, exact };
       const lacking = engine.cannotState?.(scene, setting);
@@ -188,9 +223,10 @@ function time(entries, repeats) {
 
 /** An entry of peers.json: lengths in metres, costs in milliseconds per frame. */
 function record(entry, best) {
-  const { setting, failure, error, other, ms, medians } = entry;
+  const { setting, failure, error, other, rise, drift, gap, ms, medians } = entry;
   const engine = entry.engine.title;
-  return { engine, setting, failure, error, other, ms, medians, best: best.includes(entry) };
+  const measured = { error, other, rise, drift, gap, ms, medians };
+  return { engine, setting, failure, ...measured, best: best.includes(entry) };
 }
 
 /** The value of an option that counts; exits if it is no whole number above 0. */
@@ -212,9 +248,9 @@ async function main() {
   console.log(`WebAssembly in Node.js ${process.version} (V8 ${process.versions.v8})`);
   for (const scene of scenes) {
     const entries = search(scene, list, settings);
-    const candidates = frontier(entries, kSlack);
+    const candidates = shown(entries, kSlack);
     time(candidates, repeats);
-    const best = frontier(candidates, 0);
+    const best = shown(candidates, 0);
     for (const engine of list) if (neverRuns(engine, entries)) process.exitCode = 1;
     progress("");
     console.log(sceneLines(scene, entries, best).join("\n"));

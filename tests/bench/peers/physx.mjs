@@ -4,7 +4,14 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import loadPhysX from "physx-js-webidl";
-import { collisionBits, foreignJoint, jointTree, relativeSlide, relativeTurn } from "./scene.mjs";
+import {
+  collisionBits,
+  foreignJoint,
+  jointTree,
+  loopJoints,
+  relativeSlide,
+  relativeTurn,
+} from "./scene.mjs";
 import { add, between, conjugate, frameOf, multiply, rotate, subtract } from "./rotation.mjs";
 
 export const title = "PhysX";
@@ -18,6 +25,12 @@ export const ladder = {
   swinging_box: [...articulation(6, 7, 8, 16), ...maximal("TGS", 32, 4, 8)],
   bridge: [...maximal("TGS", 32, 4, 8, 16), ...maximal("TGS", 8, 8, 16, 32), ...maximal("PGS", 32, 16)],
   in_space: [...articulation(2, 4, 8, 16, 32), ...maximal("TGS", 32, 4, 8, 16)],
+  energy: [
+    ...articulation(4, 8, 16, 32),
+    ...maximal("TGS", 32, 4, 8, 16, 32, 64),
+    ...maximal("TGS", 8, 8, 16, 32),
+    ...maximal("PGS", 32, 8, 32),
+  ],
   stack: [...maximal("TGS", 32, 4, 16), ...maximal("PGS", 32, 16), ...maximal("TGS", 250, 8)],
 };
 
@@ -115,9 +128,9 @@ function addBody(scene, body, setting, world) {
   return rigid;
 }
 
-function addJoints(world, rigid) {
+function addJoints(joints, rigid) {
   const top = PhysX.PxTopLevelFunctions.prototype;
-  for (const joint of world.joints) {
+  for (const joint of joints) {
     const at = (i) => (i < 0 ? null : rigid[i]);
     const create = {
       ball: top.SphericalJointCreate,
@@ -214,24 +227,39 @@ function createScene(world, setting) {
   return physics.createScene(desc);
 }
 
+/** The velocity is that of the middle of the last step of PGS, or of the last iteration of TGS. */
+function lagOf({ joints, solver, iterations }) {
+  if (joints === "articulation") return 0;
+  return solver === "TGS" ? 0.5 / iterations : 0.5;
+}
+
 export async function build(world, setting) {
   await start();
   const scene = createScene(world, setting);
   const links = setting.joints === "articulation" ? addArticulation(scene, world, setting) : [];
   const rigid = world.bodies.map((body, i) => links[i] ?? addBody(scene, body, setting, world));
-  if (setting.joints === "maximal") addJoints(world, rigid);
+  addJoints(setting.joints === "maximal" ? world.joints : loopJoints(world), rigid);
   const dt = world.frame / setting.steps;
   return {
+    steps: setting.steps,
     step() {
-      for (let i = 0; i < setting.steps; ++i) {
-        scene.simulate(dt);
-        scene.fetchResults(true);
-      }
+      scene.simulate(dt);
+      scene.fetchResults(true);
     },
     poses() {
       return rigid.flatMap((body) => {
         const { p, q } = body.getGlobalPose();
         return [p.x, p.y, p.z, q.w, q.x, q.y, q.z];
+      });
+    },
+    lag: lagOf(setting),
+    velocities() {
+      return rigid.flatMap((body, i) => {
+        if (world.bodies[i].fixed) return Array(6).fill(0);
+        const v = body.getLinearVelocity();
+        const values = [v.x, v.y, v.z];
+        const w = body.getAngularVelocity();
+        return [...values, w.x, w.y, w.z];
       });
     },
     free: () => scene.release(),

@@ -3,7 +3,7 @@
 
 import RAPIER from "@dimforge/rapier3d-compat";
 import { conjugate, frameOf, multiply, rotate } from "./rotation.mjs";
-import { collisionBits, foreignJoint, jointTree } from "./scene.mjs";
+import { collisionBits, foreignJoint, jointTree, loopJoints } from "./scene.mjs";
 
 export const title = "Rapier";
 
@@ -32,6 +32,10 @@ export const ladder = {
     ...[8, 32].map((iterations) => impulse(1, iterations, 8)),
     ...[2, 4, 8, 16, 32].map((steps) => impulse(steps, 4, 8)),
   ],
+  energy: [
+    ...[8, 32].map((iterations) => impulse(1, iterations, 8)),
+    ...[4, 8, 16, 32].map((steps) => impulse(steps, 4, 8)),
+  ],
   stack: [impulse(1, 32, 8, 1000), impulse(8, 8, 8, 1000), impulse(16, 100, 8, 1000)],
 };
 
@@ -44,6 +48,8 @@ export function cannotState(scene, { joints }) {
   const types = joints === "impulse" ? ["ball", "hinge", "prismatic"] : ["ball", "hinge"];
   const foreign = foreignJoint(scene, types);
   if (foreign) return foreign;
+  const [loop] = joints === "impulse" ? [] : loopJoints(scene);
+  if (loop) return `no loop of multibodies (${loop.name})`;
   const turned = scene.joints.find(
     (joint) => joint.type === "prismatic" && joint.b >= 0 && Math.abs(heldTurn(joint)[0]) < 1 - 1e-12,
   );
@@ -144,14 +150,22 @@ export async function build(scene, setting) {
   if (scene.collides) scene.bodies.forEach((body, i) => addCollider(world, body, rigid[i]));
   (setting.joints === "impulse" ? addJoints : addTree)(world, scene, rigid);
   return {
-    step() {
-      for (let i = 0; i < setting.steps; ++i) world.step();
-    },
+    steps: setting.steps,
+    step: () => world.step(),
     poses() {
       return rigid.flatMap((body) => {
         const x = body.translation();
         const q = body.rotation();
         return [x.x, x.y, x.z, q.w, q.x, q.y, q.z];
+      });
+    },
+    /** The velocity of the middle of the last of the inner sub-steps. */
+    lag: 0.5 / setting.iterations,
+    velocities() {
+      return rigid.flatMap((body) => {
+        const v = body.linvel();
+        const w = body.angvel();
+        return [v.x, v.y, v.z, w.x, w.y, w.z];
       });
     },
     free: () => world.free(),

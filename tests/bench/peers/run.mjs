@@ -1,5 +1,5 @@
 // One run of one engine in its own process: node run.mjs ENGINE SCENE.json FRAMES WARM_UP SETTING
-// prints one line per frame, like substep_peer: milliseconds of physics, then all poses.
+// prints one line per frame, like substep_peer: milliseconds of physics, all poses, all velocities.
 
 import { broken } from "./measures.mjs";
 import { readScene } from "./scene.mjs";
@@ -14,19 +14,21 @@ async function warm() {
   const kEnough = 5e3; // maximum duration [ms]
   const world = await build(scene, setting);
   const start = performance.now();
-  for (let i = 0; i < Number(warmUp) && performance.now() - start < kEnough; ++i) world.step();
+  for (let i = 0; i < Number(warmUp) && performance.now() - start < kEnough; ++i) {
+    for (let k = 0; k < world.steps; ++k) world.step();
+  }
   world.free();
 }
 
 /**
- * Milliseconds of one frame of physics. In a frame longer than a time slice the wall clock may include
- * other processes; the CPU time of this process is then more accurate.
+ * Milliseconds of some steps. If they take longer than a time slice the wall clock may include other
+ * processes; the CPU time of this process is then more accurate.
  */
-function timed(world) {
+function timed(world, steps) {
   const kSlice = 1.0; // [ms]
   const cpu = process.cpuUsage();
   const start = performance.now();
-  world.step();
+  for (let i = 0; i < steps; ++i) world.step();
   const wall = performance.now() - start;
   if (wall < kSlice) return wall;
   const { user, system } = process.cpuUsage(cpu);
@@ -36,11 +38,23 @@ function timed(world) {
 await warm();
 const world = await build(scene, setting);
 const lines = [];
-for (let i = 1; i <= Number(frames); ++i) {
-  const milliseconds = timed(world);
-  const poses = world.poses();
-  lines.push([milliseconds, ...poses].join(" "));
-  // A failed run may end. Checked rarely, so as not to disturb the timing.
-  if (i % 60 === 0 && broken(scene, poses)) break;
+
+/** Ends a frame after the first step of the next one: its velocities are those at its poses. */
+function finish({ milliseconds, poses, velocities }) {
+  const next = world.velocities();
+  const synchronised = velocities.map((v, i) => v + world.lag * (next[i] - v));
+  lines.push([milliseconds, ...poses, ...synchronised].join(" "));
 }
+
+let last = null;
+for (let i = 1; i <= Number(frames); ++i) {
+  let milliseconds = timed(world, 1);
+  if (last) finish(last);
+  if (world.steps > 1) milliseconds += timed(world, world.steps - 1);
+  last = { milliseconds, poses: world.poses(), velocities: world.velocities() };
+  // A failed run may end. Checked rarely, so as not to disturb the timing.
+  if (i % 60 === 0 && broken(scene, last.poses)) break;
+}
+if (!broken(scene, last.poses)) world.step();
+finish(last);
 process.stdout.write(lines.join("\n") + "\n");

@@ -94,7 +94,7 @@ export function collisionBits(body) {
  * The joints as a tree rooted at the world, for formulations in reduced coordinates: for every moving
  * body the joint to its parent.
  * @return parents first: {body, parent, joint, flipped}; flipped if the joint's a is the parent, joint
- * null if the body is free. Throws if joints close a loop.
+ * null if the body is free. Joints that close loops are left out: loopJoints().
  */
 export function jointTree(scene) {
   const placed = new Set([-1]);
@@ -107,15 +107,21 @@ export function jointTree(scene) {
       const a = placed.has(joint.a);
       const b = placed.has(joint.b);
       if (!a && !b) continue;
-      if (a && b) throw new Error("the joints close a loop: not a tree");
-      tree.push({ body: a ? joint.b : joint.a, parent: a ? joint.a : joint.b, joint, flipped: a });
-      placed.add(a ? joint.b : joint.a);
       open.delete(joint);
       grown = true;
+      if (a && b) continue;
+      tree.push({ body: a ? joint.b : joint.a, parent: a ? joint.a : joint.b, joint, flipped: a });
+      placed.add(a ? joint.b : joint.a);
     }
   }
   scene.bodies.forEach((body, i) => {
     if (!placed.has(i)) tree.push({ body: i, parent: -1, joint: null, flipped: false });
   });
   return tree;
+}
+
+/** The joints that are not in the tree: each closes a loop. */
+export function loopJoints(scene) {
+  const inTree = new Set(jointTree(scene).map(({ joint }) => joint));
+  return scene.joints.filter((joint) => !inTree.has(joint));
 }

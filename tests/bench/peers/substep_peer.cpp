@@ -1,5 +1,9 @@
 // One run of a scene by this project, natively or, compiled to WebAssembly, under Node.js.
+//
+// Settings: those of the library, on top of the scene's own or of those of a preset named before
+// them (preset=paper).
 
+#include "core/lab/presets.hpp"
 #include "core/model/setting_fields.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/bench/peers/peer_run.hpp"
@@ -13,6 +17,12 @@ class World {
   explicit World(const bench::PeerArguments& arguments) : simulator_(arguments.scene) {
     Settings settings = arguments.scene->settings;
     for (const auto& [name, value] : arguments.settings) {
+      if (name == "preset") {
+        const Preset* preset = find_preset(value);
+        if (!preset) bench::refuse("no preset is called '" + value + "'");
+        settings = preset->settings;
+        continue;
+      }
       const SettingField* field = find_setting(name);
       if (!field) bench::refuse("no setting is called '" + name + "'");
       const auto problem = set_setting(*field, value, settings);
@@ -22,11 +32,21 @@ class World {
     simulator_.set_measures({.energies = false, .errors = false, .stages = false});
   }
 
+  [[nodiscard]] static int steps() { return 1; }
   void step() { simulator_.step(); }
 
   void poses(bench::PeerFrame& frame) const {
     frame.x = simulator_.state().x;
     frame.q = simulator_.state().q;
+  }
+
+  /// Those at the time of the poses, which State holds beside those of the integrator.
+  [[nodiscard]] static double lag() { return 0.0; }
+  void velocities(bench::PeerFrame& frame) const {
+    for (const Vec6& u : simulator_.state().u_synchronised) {
+      frame.v.emplace_back(u.head<3>());
+      frame.w.emplace_back(u.tail<3>());
+    }
   }
 
   void reset() { simulator_.reset(); }

@@ -1,10 +1,18 @@
 // The tables of the peer bench, as text.
 
+/** Headings of the columns after the cost, and the members of an entry that they show. */
 const kColumns = {
-  swinging_box: ["off at 3 s", "joint gap"],
-  in_space: ["largest off", "joint gap"],
-  bridge: ["joint gap", "ball sinks"],
-  stack: ["penetration", "box moved"],
+  swinging_box: { "off at 3 s mm": "error", "joint gap mm": "other" },
+  in_space: { "largest off mm": "error", "joint gap mm": "other" },
+  bridge: { "joint gap mm": "error", "ball sinks mm": "other" },
+  stack: { "penetration mm": "error", "box moved mm": "other" },
+  energy: {
+    "energy %": "error",
+    "rises by %": "rise",
+    "at the end %": "drift",
+    "off in 1 s mm": "other",
+    "joint gap mm": "gap",
+  },
 };
 
 const settingText = (setting) =>
@@ -19,31 +27,37 @@ function millimetres(x) {
   return mm >= 100 ? mm.toFixed(0) : String(Number(mm.toPrecision(3)));
 }
 
-const row = (cells) =>
-  cells.map((cell, i) => (i === 0 ? cell.padEnd(20) : i === 4 ? cell : cell.padStart(12))).join("  ");
+/** A share as a percentage, with three digits. */
+const percent = (x) => String(Number((100 * x).toPrecision(3)));
+
+/** The error of an entry with its unit. */
+const errorText = ({ kind, error }) =>
+  kind === "energy" ? `${percent(error)} %` : `${millimetres(error)} mm`;
+
+const row = ([name, ...cells], last = "") =>
+  [name.padEnd(20), ...cells.map((cell) => cell.padStart(13)), last].join("  ");
 
 function timedRow(entry) {
   const spread = `${entry.least.toPrecision(3)}..${entry.most.toPrecision(3)}`;
-  return row([
-    entry.engine.title,
-    entry.ms.toPrecision(3),
-    millimetres(entry.error),
-    millimetres(entry.other),
+  const cells = Object.entries(kColumns[entry.kind]).map(([heading, member]) =>
+    (heading.endsWith("%") ? percent : millimetres)(entry[member]),
+  );
+  return row(
+    [entry.engine.title, entry.ms.toPrecision(3), ...cells],
     `${settingText(entry.setting)}  [${spread} ms]`,
-  ]);
+  );
 }
 
 /** Settings that hold, cheapest first within an engine, then those that were not run or fail. */
 export function sceneLines({ title, kind }, entries, best) {
-  const columns = kColumns[kind].map((column) => `${column} mm`);
-  const lines = ["", title, row(["engine", "ms per frame", ...columns, "setting"])];
+  const lines = ["", title, row(["engine", "ms per frame", ...Object.keys(kColumns[kind])], "setting")];
   const engines = [...new Set(entries.map(({ engine }) => engine))];
   for (const engine of engines) {
     const own = best.filter((entry) => entry.engine === engine).sort((a, b) => a.ms - b.ms);
     lines.push(...own.map(timedRow));
     const tried = entries.some((entry) => entry.engine === engine && !entry.lacking);
-    if (!tried) lines.push(row([engine.title, "skipped", "", "", ""]));
-    else if (own.length === 0) lines.push(row([engine.title, "none holds", "", "", ""]));
+    if (!tried) lines.push(row([engine.title, "skipped"]));
+    else if (own.length === 0) lines.push(row([engine.title, "none holds"]));
   }
   for (const engine of engines) {
     const failed = entries.filter((entry) => entry.engine === engine && entry.failure);
@@ -58,7 +72,9 @@ export function sceneLines({ title, kind }, entries, best) {
 /** Newton's method has its own integration; null if an engine has only one integrator. */
 function integrator({ engine, setting }) {
   if (setting.forces) return `newton, forces ${setting.forces}`;
-  return setting.integrator ?? (engine.ours ? "euler" : null);
+  if (setting.integrator) return setting.integrator;
+  if (setting.preset === "steady") return "leapfrog";
+  return engine.ours ? "euler" : null;
 }
 
 const kAlike = 1.01; // ratio of errors that count as equal
@@ -73,7 +89,7 @@ export function integratorLines(entries, best) {
     const least = Math.min(...own(best).map(({ error }) => error));
     const alike = own(best).filter(({ error }) => error <= kAlike * least);
     const [first] = alike.sort((a, b) => a.ms - b.ms);
-    const cost = `${millimetres(first.error)} mm at ${first.ms.toPrecision(3)} ms`;
+    const cost = `${errorText(first)} at ${first.ms.toPrecision(3)} ms`;
     return [`  ${engine.title}: ${integrator(first)} is the best of: ${[...tried].join("; ")}: ${cost}`];
   });
 }
@@ -102,7 +118,7 @@ export function factorLines({ aim }, best) {
     const verdict = ours
       ? `${(peer.ms / ours.ms).toFixed(1)} times our cost (${settingText(ours.setting)})`
       : "more accurate than we are at any setting tried";
-    const cost = `${millimetres(peer.error)} mm, ${peer.ms.toPrecision(3)} ms`;
+    const cost = `${errorText(peer)}, ${peer.ms.toPrecision(3)} ms`;
     return `  ${peer.engine.title} at ${cost}: ${verdict}`;
   });
   for (const name of new Set(peers.map(platform))) {

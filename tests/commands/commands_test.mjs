@@ -190,6 +190,14 @@ const trials = {
     });
   },
 
+  async figures() {
+    await inCopy(["release"], async (folder, changed) => {
+      const out = await dev(["figures"], { cwd: folder });
+      assert.match(out, /^\| `crank_rocker` \| steady, alpha 0\.1 \|/m);
+      assert.deepEqual(changed(), []);
+    });
+  },
+
   async docs() {
     await dev(["docs"]);
     assert.match(readFileSync(join(root, "build/docs/html/index.html"), "utf8"), /substep/);

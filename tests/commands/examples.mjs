@@ -18,6 +18,7 @@ const kinds = {
   json: "json",
   mjs: "module",
   sh: "script",
+  text: "text",
 };
 
 /** A command without its comment. */
@@ -70,7 +71,7 @@ function ofPage(page) {
 /**
  * Every example of a page, in its order.
  * @returns {page, line, code, text, kind, notRun, night}[]: kind is command, script, cpp, diff, html,
- *   module, json, link or unknown; code is the command, or the first line of a block; notRun and night
+ *   module, json, link, text or unknown; code is the command, or the first line of a block; notRun and night
  *   are those of its entry in exceptions.mjs
  */
 export function examples(page) {

@@ -139,6 +139,7 @@ const runners = {
   module: parseModule,
   html: () => {}, // examples_in_page_test.mjs
   link: () => {},
+  text: () => {}, // formulas
   unknown: ({ language, code }) => assert.fail(`no way is known to run ${language}: ${code}`),
 };
 

@@ -10,7 +10,7 @@ namespace substep {
 
 namespace {
 
-constexpr int kMost = 3;               // corrections
+constexpr int kMostCorrections = 3;    // corrections
 constexpr double kFalls = 0.5;         // required reduction of |w| per correction
 constexpr double kChange = 1e-2;       // largest relative change of velocities by a correction
 constexpr double kAttainable = 1e-15;  // relative to the velocities: attainable accuracy
@@ -69,14 +69,15 @@ void SaddleLdlt::refine(const System& system) {
     std::copy_n(blocks[k].bias, kMaxRows, found_[k].bias);
   }
   double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= kMost; ++i) {
+  for (int i = 0; i <= kMostCorrections; ++i) {
     for (std::size_t k = 0; k < blocks.size(); ++k) {
       std::copy_n(blocks[k].impulse, kMaxRows, found_[k].impulse);
     }
     const double left = start_correction(system);
     const bool better = i == 0 || (left < kFalls * last && is_near(system.u, u_earlier_));
     if (!better) copy(u_earlier_, system.u);
-    const bool goes_on = better && i < kMost && !(left <= kAttainable * largest_of(system.u));
+    const bool goes_on =
+        better && i < kMostCorrections && !(left <= kAttainable * largest_of(system.u));
     if (goes_on) {
       copy(system.u, u_earlier_);
       read(blocks);

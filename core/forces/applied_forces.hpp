@@ -3,6 +3,7 @@
 // one struct of static functions in its own file, and one entry of AppliedForces; a missing
 // function is a compile error.
 
+#include <algorithm>
 #include <concepts>
 #include <initializer_list>
 #include <tuple>
@@ -39,6 +40,13 @@ void for_each_force(const Effects& effects, Visit&& visit) {
   [&]<class... F>(std::type_identity<std::tuple<F...>>) {
     ((effects.*F::kEffect ? visit(F{}) : void()), ...);
   }(std::type_identity<AppliedForces>{});
+}
+
+/// True if the effect `external` applies a constant torque to a body.
+inline bool has_torque(const Scene& scene) {
+  return scene.effects.external &&
+         std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const Body& body) { return !body.is_static && !body.torque.isZero(0.0); });
 }
 
 /// True if applied forces other than the known ones act on bodies.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/forces/applied_forces.hpp"
 #include "core/model/methods.hpp"
 
 namespace substep {
@@ -83,10 +84,7 @@ std::string energy_changes_by(const Scene& scene, bool touches) {
       })) {
     return "impacts";
   }
-  const bool torque = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
-    return !body.is_static && body.torque != Vec3::Zero();
-  });
-  return effects.external && torque ? "a constant torque" : "";
+  return has_torque(scene) ? "a constant torque" : "";
 }
 
 ErrorAxis first_axis(const Scene& scene) {

@@ -49,7 +49,9 @@ double depth_inside(const Plane&, const Vec3&, const Vec3&) { return 0.0; }  // 
 }  // namespace
 
 PassageWatch::PassageWatch(const Scene& scene, const State& start)
-    : collisions_(std::make_shared<const BroadPhase>(scene)), joined_(scene.bodies.size(), false) {
+    : collisions_(std::make_shared<const BroadPhase>(scene)),
+      joined_(scene.bodies.size(), false),
+      travel_(scene.bodies.size(), 0.0) {
   for (const Joint& joint : scene.joints) {
     joined_[index(base(joint).a)] = true;
     if (base(joint).b != kWorld) joined_[index(base(joint).b)] = true;
@@ -64,31 +66,34 @@ PassageWatch::PassageWatch(const Scene& scene, const State& start)
 }
 
 std::optional<Passage> PassageWatch::add(const Scene& scene, const State& now) {
-  const auto travel = [&](int i) {  // bound for the points of a body [m]
-    const Pose& was = before_[index(i)];
-    const double rate = std::max(was.u.tail<3>().norm(), now.u[index(i)].tail<3>().norm());
-    return (now.x[index(i)] - was.x).norm() +
-           rate * scene.frame * radius_around(scene.bodies[index(i)].shape);
-  };
-  std::optional<Passage> found;
+  const std::optional<Passage> found = first(scene, now);
+  for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = {now.x[i], now.q[i], now.u[i]};
+  return found;
+}
+
+std::optional<Passage> PassageWatch::first(const Scene& scene, const State& now) {
   const auto solids = collisions_->solids();
   for (const int i : solids) {
-    const double way = travel(i);
-    if (found || way < kLeastDepth * narrowest_) continue;
-    const double reach = way + radius_around(scene.bodies[index(i)].shape);
+    const Pose& was = before_[index(i)];
+    const double rate = std::max(was.u.tail<3>().norm(), now.u[index(i)].tail<3>().norm());
+    travel_[index(i)] = (now.x[index(i)] - was.x).norm() +
+                        rate * scene.frame * radius_around(scene.bodies[index(i)].shape);
+  }
+  for (const int i : solids) {
+    if (travel_[index(i)] < kLeastDepth * narrowest_) continue;
+    const double reach = travel_[index(i)] + radius_around(scene.bodies[index(i)].shape);
     for (const int j : solids) {
-      if (i == j) continue;
-      const double both = reach + travel(j) + radius_around(scene.bodies[index(j)].shape);
+      const double both = reach + travel_[index(j)] + radius_around(scene.bodies[index(j)].shape);
       if ((now.x[index(i)] - now.x[index(j)]).squaredNorm() > both * both) continue;
-      if (!collisions_->may_touch(scene, i, j)) continue;
+      if (i == j || !collisions_->may_touch(scene, i, j)) continue;
       for (const auto& [body, through] : {std::pair{i, j}, std::pair{j, i}}) {
-        const auto depth = depth_of_path(scene, now, body, through);
-        if (depth && !found) found = Passage{through, body, *depth};
+        if (const auto depth = depth_of_path(scene, now, body, through)) {
+          return Passage{through, body, *depth};
+        }
       }
     }
   }
-  for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = {now.x[i], now.q[i], now.u[i]};
-  return found;
+  return std::nullopt;
 }
 
 std::optional<double> PassageWatch::depth_of_path(const Scene& scene, const State& now, int body,

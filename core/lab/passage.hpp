@@ -11,7 +11,7 @@ namespace substep {
 
 class BroadPhase;
 
-/// A body that passed through another between two pictures.
+/// A body that passed through another between the ends of two frames.
 struct Passage {
   int through = -1;    // the body that was passed through
   int body = -1;       // the body that passed
@@ -37,12 +37,14 @@ class PassageWatch {
     Quat q;
     Vec6 u;
   };
+  [[nodiscard]] std::optional<Passage> first(const Scene& scene, const State& now);
   [[nodiscard]] std::optional<double> depth_of_path(const Scene& scene, const State& now, int body,
                                                     int through) const;
 
   std::shared_ptr<const BroadPhase> collisions_;  // which pairs collide
   std::vector<Pose> before_;                      // at the end of the last frame
   std::vector<bool> joined_;                      // per body: it has a joint
+  std::vector<double> travel_;                    // per body: bound for its points in the frame [m]
   double narrowest_ = 0.0;                        // half width of a colliding body [m]
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/forces/applied_forces.hpp"
 #include "core/lab/stop_text.hpp"
 #include "core/model/format_text.hpp"
 #include "core/stepping/compliance.hpp"
@@ -33,12 +34,6 @@ constexpr double kRounding = 1e-12;   // of the energy of a body's size per fram
 constexpr double kNoise = 1e-4;       // of the weight times the size: overlaps that contacts allow
 constexpr double kMostInside = 0.25;  // of the width of the smaller body
 constexpr double kParted = 1e-3;      // of that width: an overlap that is left
-
-bool has_torque(const Scene& scene) {
-  return scene.effects.external &&
-         std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& body) { return !body.is_static && !body.torque.isZero(0.0); });
-}
 
 std::string names_of(const Scene& scene, int a, int b) {
   return scene.bodies[index(a)].name + ", " + scene.bodies[index(b)].name;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "scenes/generator/parts.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -22,14 +23,13 @@ Body bar(std::string name, double length, double mass, const Vec3& left, const V
   return body;
 }
 
-HingeJoint hinge(std::string name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b) {
-  HingeJoint joint;
-  joint.name = std::move(name);
-  joint.a = a;
-  joint.b = b;
-  joint.anchor_a = anchor_a;
-  joint.anchor_b = anchor_b;
-  return joint;
+/// A conservative scene, judged by its energy; it starts with the default settings.
+Scene conservative(std::string name, std::string title) {
+  Scene scene;
+  scene.name = std::move(name);
+  scene.title = std::move(title);
+  scene.group = "energy";
+  return scene;
 }
 
 }  // namespace
@@ -41,10 +41,7 @@ Scene crank_rocker() {
   constexpr double kGround = 2.0;
   constexpr double kSpeed = 30.0;  // of the crank [rad/s]
 
-  Scene scene;
-  scene.name = "crank_rocker";
-  scene.title = "Crank and rocker";
-  scene.group = "energy";
+  Scene scene = conservative("crank_rocker", "Crank and rocker");
   scene.description =
       "A four-bar linkage without friction: a crank of 0.5 m starts at 30 rad/s and drives a "
       "rocker of 1.5 m through a coupler of 2 m.";
@@ -82,10 +79,10 @@ Scene crank_rocker() {
                   bar("coupler", kCoupler, 1.0, b, along_coupler, velocity_b, omega_coupler),
                   bar("rocker", kRocker, 1.0, c, along_rocker, velocity_c, omega_rocker)};
   const Vec3 x = Vec3::UnitX();
-  scene.joints = {hinge("A", 0, -0.5 * kCrank * x, kWorld, Vec3::Zero()),
-                  hinge("B", 1, -0.5 * kCoupler * x, 0, 0.5 * kCrank * x),
-                  hinge("C", 2, -0.5 * kRocker * x, 1, 0.5 * kCoupler * x),
-                  hinge("D", 2, 0.5 * kRocker * x, kWorld, d)};
+  scene.joints = {hinge_joint("A", 0, -0.5 * kCrank * x, kWorld, Vec3::Zero()),
+                  hinge_joint("B", 1, -0.5 * kCoupler * x, 0, 0.5 * kCrank * x),
+                  hinge_joint("C", 2, -0.5 * kRocker * x, 1, 0.5 * kCoupler * x),
+                  hinge_joint("D", 2, 0.5 * kRocker * x, kWorld, d)};
   scene.criteria.track = 2;
   return scene;
 }
@@ -96,10 +93,7 @@ Scene thrown_rope() {
   constexpr double kRadius = 0.1;  // of the ball [m]
   constexpr double kSpeed = 3.0;   // of the ball [m/s]
 
-  Scene scene;
-  scene.name = "thrown_rope";
-  scene.title = "Thrown rope";
-  scene.group = "energy";
+  Scene scene = conservative("thrown_rope", "Thrown rope");
   scene.description =
       "A ball of 5 kg on a rope of eight links of 50 g is thrown up at 3 m/s from the side of its "
       "anchor.";
@@ -113,13 +107,9 @@ Scene thrown_rope() {
   scene.camera.target = {0.3, -0.6, 0.0};
 
   const auto join = [&](int a, double arm) {
-    BallJoint joint;
-    joint.name = "joint_" + std::to_string(a);
-    joint.a = a;
-    joint.anchor_a = {-arm, 0.0, 0.0};
-    joint.b = a > 0 ? a - 1 : kWorld;
-    joint.anchor_b = {a > 0 ? 0.5 * kLink : 0.0, 0.0, 0.0};
-    scene.joints.emplace_back(joint);
+    scene.joints.emplace_back(ball_joint("joint_" + std::to_string(a), a, {-arm, 0.0, 0.0},
+                                         a > 0 ? a - 1 : kWorld,
+                                         {a > 0 ? 0.5 * kLink : 0.0, 0.0, 0.0}));
   };
   for (int i = 0; i < kLinks; ++i) {
     scene.bodies.push_back(solid("link_" + std::to_string(i), box(kLink, 0.04, 0.04), 0.05,

@@ -36,16 +36,6 @@ Scene in_space(std::string name, std::string title) {
   return scene;
 }
 
-BallJoint ball_joint(std::string name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b) {
-  BallJoint joint;
-  joint.name = std::move(name);
-  joint.a = a;
-  joint.b = b;
-  joint.anchor_a = anchor_a;
-  joint.anchor_b = anchor_b;
-  return joint;
-}
-
 }  // namespace
 
 Scene spherical_pendulum() {

@@ -62,6 +62,29 @@ void join_planks(int planks, double pitch, double half_width, const Vec3& left, 
   join(planks, planks, kWorld, end, right);
 }
 
+namespace {
+
+template <class Kind>
+Kind joint_of(std::string name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b) {
+  Kind joint;
+  joint.name = std::move(name);
+  joint.a = a;
+  joint.b = b;
+  joint.anchor_a = anchor_a;
+  joint.anchor_b = anchor_b;
+  return joint;
+}
+
+}  // namespace
+
+BallJoint ball_joint(std::string name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b) {
+  return joint_of<BallJoint>(std::move(name), a, anchor_a, b, anchor_b);
+}
+
+HingeJoint hinge_joint(std::string name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b) {
+  return joint_of<HingeJoint>(std::move(name), a, anchor_a, b, anchor_b);
+}
+
 Quat turn_about_z(double c, double s) {
   // cos(a/2) = sqrt((1 + cos a)/2), sin(a/2) = sin a / (2 cos(a/2)).
   const double half_cosine = std::sqrt(0.5 * (1.0 + c));

@@ -45,6 +45,11 @@ void add_ground(double friction, double margin, Scene& scene);
 void join_planks(int planks, double pitch, double half_width, const Vec3& left, const Vec3& right,
                  Scene& scene);
 
+BallJoint ball_joint(std::string name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b);
+
+/// Axis z of both bodies.
+HingeJoint hinge_joint(std::string name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b);
+
 /// The rotation of +x to (c, s, 0), about z by an angle between -180 and 180 deg.
 /// @param c its cosine  @param s its sine
 Quat turn_about_z(double c, double s);

@@ -30,7 +30,7 @@ Settings fixed_n(int n, Settings settings = {}) {
   return settings;
 }
 
-/// As a file of somebody's own, without criteria.
+/// The same scene without its criteria: the default limits apply.
 Scene without_limits(Scene scene) {
   scene.criteria.joint_gap.reset();
   scene.criteria.energy_gain.reset();

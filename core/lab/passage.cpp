@@ -51,7 +51,8 @@ double depth_inside(const Plane&, const Vec3&, const Vec3&) { return 0.0; }  // 
 PassageWatch::PassageWatch(const Scene& scene, const State& start)
     : collisions_(std::make_shared<const BroadPhase>(scene)),
       joined_(scene.bodies.size(), false),
-      travel_(scene.bodies.size(), 0.0) {
+      fast_(scene.bodies.size(), false),
+      reach_(scene.bodies.size(), 0.0) {
   for (const Joint& joint : scene.joints) {
     joined_[index(base(joint).a)] = true;
     if (base(joint).b != kWorld) joined_[index(base(joint).b)] = true;
@@ -73,17 +74,37 @@ std::optional<Passage> PassageWatch::add(const Scene& scene, const State& now) {
 
 std::optional<Passage> PassageWatch::first(const Scene& scene, const State& now) {
   const auto solids = collisions_->solids();
+  double most_travel = 0.0;
+  double most_reach = 0.0;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
   for (const int i : solids) {
     const Pose& was = before_[index(i)];
     const double rate = std::max(was.u.tail<3>().norm(), now.u[index(i)].tail<3>().norm());
-    travel_[index(i)] = (now.x[index(i)] - was.x).norm() +
-                        rate * scene.frame * radius_around(scene.bodies[index(i)].shape);
+    const double radius = radius_around(scene.bodies[index(i)].shape);
+    const double travel = (now.x[index(i)] - was.x).norm() + rate * scene.frame * radius;
+    fast_[index(i)] = travel >= kLeastDepth * narrowest_;
+    reach_[index(i)] = travel + radius;
+    most_travel = std::max(most_travel, travel);
+    most_reach = std::max(most_reach, reach_[index(i)]);
+    low = low.cwiseMin(now.x[index(i)]);
+    high = high.cwiseMax(now.x[index(i)]);
   }
+  if (!(most_travel >= kLeastDepth * narrowest_)) return std::nullopt;  // nearly always
+  Eigen::Index axis = 0;
+  (high - low).maxCoeff(&axis);
+  const auto at = [&](int i) { return now.x[index(i)][axis]; };
+  sorted_.assign(solids.begin(), solids.end());
+  std::sort(sorted_.begin(), sorted_.end(),
+            [&](int i, int j) { return std::pair(at(i), i) < std::pair(at(j), j); });
   for (const int i : solids) {
-    if (travel_[index(i)] < kLeastDepth * narrowest_) continue;
-    const double reach = travel_[index(i)] + radius_around(scene.bodies[index(i)].shape);
-    for (const int j : solids) {
-      const double both = reach + travel_[index(j)] + radius_around(scene.bodies[index(j)].shape);
+    if (!fast_[index(i)]) continue;
+    const double near = reach_[index(i)] + most_reach;
+    auto next = std::lower_bound(sorted_.begin(), sorted_.end(), at(i) - near,
+                                 [&](int j, double least) { return at(j) < least; });
+    for (; next != sorted_.end() && at(*next) <= at(i) + near; ++next) {
+      const int j = *next;
+      const double both = reach_[index(i)] + reach_[index(j)];
       if ((now.x[index(i)] - now.x[index(j)]).squaredNorm() > both * both) continue;
       if (i == j || !collisions_->may_touch(scene, i, j)) continue;
       for (const auto& [body, through] : {std::pair{i, j}, std::pair{j, i}}) {

@@ -44,7 +44,9 @@ class PassageWatch {
   std::shared_ptr<const BroadPhase> collisions_;  // which pairs collide
   std::vector<Pose> before_;                      // at the end of the last frame
   std::vector<bool> joined_;                      // per body: it has a joint
-  std::vector<double> travel_;                    // per body: bound for its points in the frame [m]
+  std::vector<bool> fast_;                        // per body: it may have passed through one
+  std::vector<double> reach_;                     // per body: of its points in the frame [m]
+  std::vector<int> sorted_;                       // bodies along the longest axis
   double narrowest_ = 0.0;                        // half width of a colliding body [m]
 };
 

@@ -7,10 +7,7 @@ void touch(const Placed& a, const Box& box, const Placed& b, const Plane&, doubl
   const Vec3 n = b.R.col(1);
   const Vec3 centre = a.x - b.x;
   for (unsigned corner = 0; corner < 8; ++corner) {
-    const Vec3 corner_A{(corner & 1U) != 0U ? box.half_extents.x() : -box.half_extents.x(),
-                        (corner & 2U) != 0U ? box.half_extents.y() : -box.half_extents.y(),
-                        (corner & 4U) != 0U ? box.half_extents.z() : -box.half_extents.z()};
-    const Vec3 r = a.R * corner_A;
+    const Vec3 r = a.R * box.corner(corner);
     const Vec3 p = centre + r;
     const double gap = n.dot(p);
     if (gap > margin) continue;

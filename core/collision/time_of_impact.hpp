@@ -25,8 +25,9 @@ struct Waypoint {
 Waypoint after(const Travel& travel, double time);
 
 /// When the gap of two bodies first is as small as `level`, by conservative advancement (Mirtich
-/// 1996): it cannot be before the gap along the best separating axis is closed by the largest
-/// approach speed of any of their points.
+/// 1996): it cannot be before a corner has closed the gap along the best separating axis at its own
+/// speed and the largest acceleration of its rotation. Of shapes that graze each other the time is
+/// one at which they are still apart.
 /// @param dt the sub-step [s]  @param level < 0 for an overlap [m]
 /// @param accuracy within which the level is reached [m]  @param scratch its contents are lost
 /// @return in [0, dt) [s], or nothing if they miss each other

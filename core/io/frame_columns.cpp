@@ -77,6 +77,8 @@ constexpr FrameColumn kFrameColumns[] = {
      report<&FrameReport::energy>},
     {"parting", "work of parting overlaps in the frame [J]", report<&FrameReport::parting>,
      &Effects::contact},
+    {"lowered", "impacts whose restitution was lowered, because it would add energy [-]",
+     report<&FrameReport::lowered>, &Effects::restitution},
     {"px", "momentum of all bodies [kg m/s]", momentum<0>},
     {"py", "momentum of all bodies [kg m/s]", momentum<1>},
     {"pz", "momentum of all bodies [kg m/s]", momentum<2>},

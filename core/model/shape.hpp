@@ -54,6 +54,12 @@ struct Box {
   static void own_fields(S& box, Field&& field) {
     field("size", box.half_extents, kSizeRange, 2.0);
   }
+  /// @param i below 8; its bits are the signs of x, y and z, 1 for positive
+  [[nodiscard]] Vec3 corner(unsigned i) const {
+    return {(i & 1U) != 0U ? half_extents.x() : -half_extents.x(),
+            (i & 2U) != 0U ? half_extents.y() : -half_extents.y(),
+            (i & 4U) != 0U ? half_extents.z() : -half_extents.z()};
+  }
   [[nodiscard]] double radius_around() const { return half_extents.norm(); }
   [[nodiscard]] double half_width() const { return half_extents.minCoeff(); }
   [[nodiscard]] Vec3 bounds(const Mat3& R) const { return R.cwiseAbs() * half_extents; }

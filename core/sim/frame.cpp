@@ -114,6 +114,8 @@ void Simulator::Impl::begin_again(FrameReport& report) {
   index_of_last_frame.clear();
   report.n_discarded += report.n_substeps;
   report.parting = 0.0;
+  report.lowered = 0;
+  report.lowered_to = 1.0;
   report.n_substeps = 0;
   substeps_of_bodies = 0;
   report.dt_min = report.dt_max = 0.0;

@@ -1,6 +1,7 @@
 #pragma once
 // Implementation of Simulator: the stages required by its scene, and scratch.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -93,13 +94,32 @@ struct Simulator::Impl {
   bool solve_rows(Substep& sub, FrameReport& report);
   /// Repeats a solve until joints hold at the end. @param system its u* is u_star, by: its solver
   void close_joints(const Substep& sub, const System& system, Solver& by,
-                    SolveReport& solved);                     // close_joints.cpp
-  bool propagate_impacts(Substep& sub, FrameReport& report);  // impacts.cpp
+                    SolveReport& solved);  // close_joints.cpp
+  // impacts.cpp
+  bool propagate_impacts(Substep& sub, FrameReport& report);
+  bool solve_impacts(Substep& sub, std::span<const InverseMass> masses, FrameReport& report);
+  bool lower_restitution(Substep& sub, std::span<const InverseMass> masses, FrameReport& report);
+  /// Work of all rows but the grab's.
+  struct RowWork {
+    double added = 0.0;      // to the kinetic energy [J]
+    double exchanged = 0.0;  // sum of magnitudes [J]
+    [[nodiscard]] bool adds() const { return added > 1e-9 * exchanged; }
+  };
+  /// @param u, u_plus before and after the impulses  @param of_impacts with the velocities that
+  /// forces give until they happen
+  [[nodiscard]] RowWork work_of_rows(const Substep& sub, std::span<const Vec6> u,
+                                     std::span<const Vec6> u_plus, bool of_impacts) const;
+  bool rebounds_add_energy(const Substep& sub);  // in the solve after them
+  void lower_to(double share) {
+    ++lowered;
+    lowered_to = std::min(lowered_to, share);
+  }
   Solver& impact_solver();
   // swept.cpp
   bool sweeps_contacts(const Substep& sub) const;
   bool solve_swept(Substep& sub, FrameReport& report);
   bool solve_softly(Substep& sub, FrameReport& report);
+  bool solve_afresh(Substep& sub, FrameReport& report);
   SweptContacts::Found sweep(Substep& sub);
   bool too_many_swept() const;
   bool find_shift(Substep& sub, FrameReport& report);
@@ -209,6 +229,10 @@ struct Simulator::Impl {
   std::unique_ptr<SweptContacts> swept;  // built on first use
   std::vector<Vec6> u_forced;            // after the forces, before rows and impacts
   std::vector<Vec6> u_unforced;          // before the forces and impacts
+  std::vector<Vec6> u_rebounding;        // after impacts that add no energy, and forces
+  bool separates = true;                 // what was struck
+  int lowered = 0;                       // impacts of the last solve with a lower e
+  double lowered_to = 1.0;               // their smallest share of e [-]
   std::vector<Vec6> gain;                // by the forces of the sub-step
   std::vector<Vec6> shift;               // of the motion beyond u: impacts, overlaps [m/s, rad/s]
   double contact_softness = 0.0;         // of the mobility of a row [-]

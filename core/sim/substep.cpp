@@ -135,6 +135,7 @@ bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
   set_softness(sub.rows, scene->regularisation, sub.dt);
   if (sweeps_contacts(sub)) stiffen_contacts(sub, contact_softness);
   if (!propagate_impacts(sub, report)) return false;
+  if (sweeps_contacts(sub) && !sub.struck.empty()) copy(state.u, u_rebounding);
   if (forces_are_stored(sub)) seed(sub);
   set_bias(sub, report);
   if (holds_grab(sub)) soften_grab(*grab, sub.dt, sub.rows.back());
@@ -172,7 +173,7 @@ void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
   if (sweeps_contacts(sub)) set_swept_bias(sub.rows, sub.gain, sub.dt);
   set_springs(sub, state);
   if (sub.settings.drift_order == 2) add_curvature_bias(sub.rows, sub.u_start, sub.dt);
-  if (restitution) restitution->apply(sub, sub.u_before, sub.rows);
+  if (restitution && separates) restitution->apply(sub, sub.u_before, sub.rows);
   report.work.flops += sub.integrator->aim(sub, state);
 }
 

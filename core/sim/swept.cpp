@@ -64,6 +64,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
   u_forced.assign(state.u.begin(), state.u.end());
   u_unforced.assign(sub.u_before.begin(), sub.u_before.end());
   gain.resize(state.u.size());
+  u_rebounding.resize(state.u.size());
   for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = u_forced[i] - u_unforced[i];
   sub.gain = gain;
   SweptContacts::Found found = SweptContacts::Found::kContacts;
@@ -80,6 +81,8 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
       return false;
     }
   }
+  report.lowered += lowered;
+  report.lowered_to = std::min(report.lowered_to, lowered_to);
   const auto overlaps = [&](const Block& block) { return parts(block); };
   bool shifts = found != SweptContacts::Found::kNothing ||
                 std::any_of(sub.rows.begin(), sub.rows.end(), overlaps);
@@ -106,15 +109,29 @@ bool Simulator::Impl::solve_softly(Substep& sub, FrameReport& report) {
   for (const double softness : {kRigid, 100.0 * kRigid, 1e4 * kRigid}) {
     contact_softness = softness;
     const std::int64_t unsolved = report.work.unsolved;
-    copy(u_forced, state.u);
-    copy(u_unforced, sub.u_before);
-    shift.assign(state.u.size(), Vec6::Zero());
-    sub.shift = shift;
-    if (!solve_rows(sub, report)) return false;
+    if (!solve_afresh(sub, report)) return false;
+    if (rebounds_add_energy(sub)) {
+      separates = false;
+      const bool solved = solve_afresh(sub, report);
+      separates = true;
+      if (!solved) return false;
+      lower_to(0.0);
+    }
     if (last_solve < SolveStatus::kUnsolved) break;
     if (softness < 1e4 * kRigid) report.work.unsolved = unsolved;
   }
   return true;
+}
+
+bool Simulator::Impl::solve_afresh(Substep& sub, FrameReport& report) {
+  copy(u_forced, state.u);
+  copy(u_unforced, sub.u_before);
+  sub.integrator->begin_solve(sub);
+  shift.assign(state.u.size(), Vec6::Zero());
+  sub.shift = shift;
+  lowered = 0;
+  lowered_to = 1.0;
+  return solve_rows(sub, report);
 }
 
 // The potentials are linear in the position.

@@ -22,6 +22,10 @@ Vec3 velocity_of(const Substep& sub, std::size_t body, const Vec3& l) {
   return R * (R.transpose() * l).cwiseQuotient(sub.scene->bodies[body].inertia);
 }
 
+void turn_momentum(const Substep& sub, std::size_t body, const Quat& turn, State& state) {
+  state.u[body].tail<3>() = velocity_of(sub, body, turn * momentum_of(sub, body, state.u[body]));
+}
+
 void settle_momentum(const Substep& sub, State& state) {
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);

@@ -16,6 +16,9 @@ Vec3 momentum_of(const Substep& sub, std::size_t body, const Vec6& u);
 /// I^-1 l [rad/s]; for a torque, its angular acceleration. @param l world
 Vec3 velocity_of(const Substep& sub, std::size_t body, const Vec3& l);
 
+/// Turns the momentum of a tumbling body, as TurnSpin.
+void turn_momentum(const Substep& sub, std::size_t body, const Quat& turn, State& state);
+
 /// Replaces I^-1 l by the angular velocity at the poses after the sub-step.
 void settle_momentum(const Substep& sub, State& state);
 

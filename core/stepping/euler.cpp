@@ -29,6 +29,23 @@ Euler::Euler(const Scene& scene) {
   if (scene.effects.gyroscopic) gyroscopic_.emplace();
 }
 
+bool Euler::strikes_spin(const Substep& sub, std::size_t body) const {
+  return gyroscopic_ && gyroscopic_->predicts() && tumbles(sub, body);
+}
+
+void Euler::begin_solve(const Substep& sub) {
+  if (gyroscopic_ && gyroscopic_->predicts()) gyroscopic_->begin_solve(sub);
+}
+
+Vec3 Euler::spin_at_start(const Substep& sub, std::size_t body) const {
+  return strikes_spin(sub, body) ? gyroscopic_->spin_at_start(sub, body)
+                                 : TimeIntegrator::spin_at_start(sub, body);
+}
+
+Vec3 Euler::strike(const Substep& sub, std::size_t body, const Vec3& spin_at_start) {
+  return strikes_spin(sub, body) ? gyroscopic_->strike(sub, body, spin_at_start) : spin_at_start;
+}
+
 std::int64_t Euler::aim(const Substep& sub, State& /*state*/) {
   if (gyroscopic_) gyroscopic_->bend_rows(sub);
   return 0;
@@ -45,7 +62,7 @@ void Euler::predict_velocities(const Substep& sub, const State& state, std::span
 void Euler::move_poses(const Substep& sub, State& state) {
   state.acceleration.clear();  // of another method, outdated
   state.acceleration_change.clear();
-  integrate(*sub.part, sub.dt, state.u, state, sub.shift);
+  integrate(sub, state.u, turn_spin, state);
 }
 
 // Applies the forces of the sub-step for half of its length; of those on bodies that were hit,

@@ -16,6 +16,9 @@ class Euler : public TimeIntegrator {
   void begin(const Substep& sub, State& state) override {
     if (gyroscopic_) gyroscopic_->begin(sub, state);
   }
+  void begin_solve(const Substep& sub) override;
+  [[nodiscard]] Vec3 spin_at_start(const Substep& sub, std::size_t body) const override;
+  Vec3 strike(const Substep& sub, std::size_t body, const Vec3& spin_at_start) override;
   std::int64_t aim(const Substep& sub, State& state) override;
   void predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const override;
   void settle(Substep& sub, State& state) override {
@@ -35,6 +38,7 @@ class Euler : public TimeIntegrator {
   }
 
  private:
+  [[nodiscard]] bool strikes_spin(const Substep& sub, std::size_t body) const;
   void find_hit(const Substep& sub);
   void turn_joint_forces(const Substep& sub, const State& state);
   void synchronise_spin(const Substep& sub, std::size_t body, double ahead, const Vec3& bent,

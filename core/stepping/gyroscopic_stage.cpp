@@ -100,22 +100,54 @@ void GyroscopicStage::predict(const Substep& sub, std::size_t i, bool damps, Sta
   const Mat3& R = sub.R_WB[i];
   Spin& spin = spins_[i];
   const Vec3 omega_B = R.transpose() * state.u[i].tail<3>();
-  spin = {I.cwiseProduct(omega_B), Vec3::Zero(), state.u[i].tail<3>(), false, false};
-  if (is_zero(gyroscopic_torque(I, omega_B)) && !loops_bend_) return;  // about a principal axis
-  spin.momentum = momentum_after(I, omega_B, state.dt_previous_of(i));
-  spin.damped = damps || sub.dt * state.u[i].tail<3>().norm() > kMaxPredictedTurn ||
-                changes_mass_of(i, *sub.scene, sub.settings, state, sub.dt);
-  Vec3 pushed = Vec3::Zero();
-  if (!spin.damped) {
-    pushed = sub.impulse_time[i] * (R.transpose() * state.torque[i]);
+  spin = Spin{};
+  spin.momentum = I.cwiseProduct(omega_B);
+  spin.omega = spin.before = state.u[i].tail<3>();
+  if (!is_zero(gyroscopic_torque(I, omega_B)) || loops_bend_) {
+    spin.out_of_axis = true;
+    spin.damped = damps || sub.dt * state.u[i].tail<3>().norm() > kMaxPredictedTurn ||
+                  changes_mass_of(i, *sub.scene, sub.settings, state, sub.dt);
+    spin.momentum = momentum_after(I, omega_B, state.dt_previous_of(i));
+    if (!spin.damped) spin.push = sub.impulse_time[i] * (R.transpose() * state.torque[i]);
+    aim(sub, i, omega_B + spin.push.cwiseQuotient(I));
   }
-  const Vec3 guess = omega_B + pushed.cwiseQuotient(I);
-  const Vec3 then = velocity_of_momentum(I, spin.momentum + pushed, sub.dt, guess);
+  spin.unstruck = spin.before;
+  state.u[i].tail<3>() = spin.before;
+}
+
+// From the momentum at the start of the sub-step.
+void GyroscopicStage::aim(const Substep& sub, std::size_t i, const Vec3& guess) {
+  const Vec3& I = sub.scene->bodies[i].inertia;
+  Spin& spin = spins_[i];
+  const Vec3 p = spin.momentum + spin.struck;
+  const Vec3 then = velocity_of_momentum(I, p + spin.push, sub.dt, guess);
   spin.predicted = 0.5 * sub.dt * gyroscopic_torque(I, then);
-  spin.omega = R * then;
+  spin.omega = sub.R_WB[i] * then;
+  spin.before = sub.R_WB[i] * (spin.damped ? then : Vec3((p + spin.predicted).cwiseQuotient(I)));
+}
+
+void GyroscopicStage::begin_solve(const Substep& sub) {
+  for (const int body : sub.part->moving) {
+    Spin& spin = spins_[index(body)];
+    spin.struck.setZero();
+    spin.before = spin.unstruck;
+  }
+}
+
+Vec3 GyroscopicStage::spin_at_start(const Substep& sub, std::size_t i) const {
+  const Vec3& I = sub.scene->bodies[i].inertia;
+  return sub.R_WB[i] * spins_[i].momentum.cwiseQuotient(I);
+}
+
+Vec3 GyroscopicStage::strike(const Substep& sub, std::size_t i, const Vec3& spin_at_start) {
+  const Vec3& I = sub.scene->bodies[i].inertia;
+  Spin& spin = spins_[i];
+  const Vec3 spin_B = sub.R_WB[i].transpose() * spin_at_start;
+  spin.struck = I.cwiseProduct(spin_B) - spin.momentum;
+  if (is_zero(spin.struck)) return spin.before;
   spin.out_of_axis = true;
-  state.u[i].tail<3>() =
-      R * (spin.damped ? then : Vec3((spin.momentum + spin.predicted).cwiseQuotient(I)));
+  aim(sub, i, spin_B);
+  return spin.before;
 }
 
 void GyroscopicStage::bend_rows(const Substep& sub) const {
@@ -151,14 +183,16 @@ std::optional<Vec3> GyroscopicStage::pushed(const Substep& sub, std::size_t i,
   const Vec3 omega_B = sub.R_WB[i].transpose() * omega;
   const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spins_[i].predicted);
   if (turns_freely && !loops_bend_) return std::nullopt;
-  return I.cwiseProduct(sub.R_WB[i].transpose() * (omega - sub.u_before[i].tail<3>()));
+  return I.cwiseProduct(sub.R_WB[i].transpose() * (omega - spins_[i].before));
 }
 
 // From the stored momentum: rotating it back and forth would lose a digit every thousand steps.
 Vec3 GyroscopicStage::settled(const Substep& sub, std::size_t i, const Vec3& omega,
                               const Vec3& pushed) const {
   const Mat3& R = sub.R_WB[i];
-  return R * velocity_of_momentum(sub.scene->bodies[i].inertia, spins_[i].momentum + pushed, sub.dt,
+  const Spin& spin = spins_[i];
+  return R * velocity_of_momentum(sub.scene->bodies[i].inertia,
+                                  spin.momentum + spin.struck + pushed, sub.dt,
                                   R.transpose() * omega);
 }
 

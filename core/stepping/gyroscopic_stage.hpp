@@ -31,6 +31,12 @@ class GyroscopicStage {
  public:
   /// Adds the torque to state.u before the forces.
   void begin(const Substep& sub, State& state);
+  /// False if another method carries the momentum.
+  [[nodiscard]] bool predicts() const { return !spins_.empty(); }
+  /// TimeIntegrator's, if it predicts(), for a body that tumbles().
+  void begin_solve(const Substep& sub);
+  [[nodiscard]] Vec3 spin_at_start(const Substep& sub, std::size_t body) const;
+  Vec3 strike(const Substep& sub, std::size_t body, const Vec3& spin_at_start);
   /// Sets up ("bends") rows of joints for the predicted rotation of their bodies.
   void bend_rows(const Substep& sub) const;
   /// The angular velocity that settle() will set. @param omega after the solve, world [rad/s]
@@ -44,16 +50,22 @@ class GyroscopicStage {
   }
 
  private:
-  struct Spin {                     // about the principal axes [N m s]
-    Vec3 momentum = Vec3::Zero();   // at the start of the sub-step
-    Vec3 predicted = Vec3::Zero();  // dt/2 of the gyroscopic torque in it
+  struct Spin {                     // about the principal axes
+    Vec3 momentum = Vec3::Zero();   // at the start of the sub-step [N m s]
+    Vec3 struck = Vec3::Zero();     // its change by impacts [N m s]
+    Vec3 push = Vec3::Zero();       // expected from forces [N m s]
+    Vec3 predicted = Vec3::Zero();  // dt/2 of the gyroscopic torque in it [N m s]
     Vec3 omega = Vec3::Zero();      // predicted, world [rad/s]
+    Vec3 before = Vec3::Zero();     // before forces and rows, after impacts, world [rad/s]
+    Vec3 unstruck = Vec3::Zero();   // before impacts too, world [rad/s]
     bool out_of_axis = false;       // false: it rotates about a principal axis
     bool damped = false;            // its momentum is not kept
   };
   void predict(const Substep& sub, std::size_t body, bool damps, State& state);
-  /// Angular impulse since begin() about the principal axes [N m s], if the momentum determines the
-  /// rotation. @param omega after the solve, world [rad/s]
+  /// Sets the angular velocity before forces from the momentum. @param guess of that with them
+  void aim(const Substep& sub, std::size_t body, const Vec3& guess);
+  /// Angular impulse of forces and rows about the principal axes [N m s], if the momentum
+  /// determines the rotation. @param omega after the solve, world [rad/s]
   [[nodiscard]] std::optional<Vec3> pushed(const Substep& sub, std::size_t body,
                                            const Vec3& omega) const;
   [[nodiscard]] Vec3 settled(const Substep& sub, std::size_t body, const Vec3& omega,

@@ -154,7 +154,7 @@ void Numerov::move_poses(const Substep& sub, State& state) {
       state.acceleration[i] = (1.0 / sub.impulse_time[i]) * (state.u[i] - sub.u_before[i]);
     }
   }
-  integrate(*sub.part, sub.dt, w_, state, sub.shift);
+  integrate(sub, w_, turn_momentum, state);
   settle_momentum(sub, state);
 }
 

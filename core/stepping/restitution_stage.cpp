@@ -1,7 +1,9 @@
 #include "core/stepping/restitution_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "core/constraints/contact.hpp"
 
@@ -10,6 +12,8 @@ namespace {
 
 // Bias of an open contact: no impact can close it [m/s].
 constexpr double kOpen = 1e30;
+// Impacts that are closer in time are one, of the sub-step.
+constexpr double kSimultaneous = 1e-3;
 
 }  // namespace
 
@@ -20,7 +24,8 @@ double RestitutionStage::restitution_of(const Block& contact) const {
 
 // The velocity u is that of the middle of the last sub-step, which leapfrog's forces have acted on
 // for the time t when this one is half over. A contact that closes at the time c of this sub-step
-// is approached by J (u + g), g the gain, and J a = J g/t until the middle of the sub-step.
+// is approached by J (u + g), g the gain, and J a = J g/t until the middle of the sub-step. The gap
+// is phi + time J (u + g) if u has changed since the start, phi that of a motion at u throughout.
 RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<const Vec6> u,
                                                   const Block& block) const {
   if (!block.is_contact() || restitution_of(block) == 0.0) return {};
@@ -32,29 +37,34 @@ RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<
   }
   const double gained = normal_speed(block, sub.gain);
   const double middle = before + gained;
-  if (!(middle < 0.0) || !(block.phi[0] + middle * sub.dt < 0.0)) return {};
-  const double time = std::max(block.phi[0], 0.0) / -middle;
+  const double gap = block.phi[0] + sub.dt * normal_speed(block, sub.shift);
+  if (!(middle < 0.0) || !(gap + middle * sub.dt < 0.0)) return {};
+  // An impact that another one causes is not before it.
+  const double time = std::max(gap / -middle, since_ * sub.dt);
   const double duration = impulse_time_of(sub, block);
   const double acceleration = gained / duration;
-  const double kick = acceleration * (time + duration - 0.5 * sub.dt);
+  const double force_time = time + duration - 0.5 * sub.dt;
+  const double kick = acceleration * force_time;
   const double speed = -(before + kick);
   // What returns within the sub-step rests.
   const bool returns = restitution_of(block) * speed <= -acceleration * sub.dt;
-  return speed >= least && !returns ? Impact{speed, kick, time, acceleration} : Impact{};
+  return speed >= least && !returns ? Impact{speed, force_time, kick, time, acceleration}
+                                    : Impact{};
 }
 
 void RestitutionStage::apply(const Substep& sub, std::span<const Vec6> u_before,
                              std::span<Block> blocks) const {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     Block& block = blocks[i];
-    const auto gained = [&] { return sub.gain.empty() ? 0.0 : normal_speed(block, sub.gain); };
-    const Impact hit = impact(sub, u_before, block);
-    if (hit.speed > 0.0) {
-      block.bias[0] =
-          std::min(block.bias[0], -restitution_of(block) * hit.speed + hit.kick - gained());
+    if (sub.gain.empty()) {
+      const Impact hit = impact(sub, u_before, block);
+      if (hit.speed > 0.0) {
+        block.bias[0] = std::min(block.bias[0], -restitution_of(block) * hit.speed + hit.kick);
+      }
     }
     if (struck_.empty() || struck_[i] == 0) continue;
-    const double separation = normal_speed(block, u_before) + gained();
+    const double gained = sub.gain.empty() ? 0.0 : normal_speed(block, sub.gain);
+    const double separation = normal_speed(block, u_before) + gained;
     // It separates anyway: redundant rows must not share forces of rounding.
     const double least = sub.gain.empty() ? separation : (1.0 - 1e-6) * separation;
     block.bias[0] = std::min(block.bias[0], -least);
@@ -92,33 +102,35 @@ bool RestitutionStage::spreads(const Substep& sub, std::span<const Vec6> u,
   return spread;
 }
 
-bool RestitutionStage::set_impacts(const Substep& sub, std::span<const Vec6> u,
+bool RestitutionStage::set_impacts(const Substep& sub, std::span<const Vec6> u, double share,
                                    std::span<Block> blocks) {
-  bool any = false;
-  double first = 1.0;
+  hits_.assign(blocks.size(), {});
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    hits_[i] = impact(sub, u, blocks[i]);
+    if (hits_[i].speed > 0.0) first = std::min(first, hits_[i].time);
+  }
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     Block& block = blocks[i];
+    Impact& hit = hits_[i];
     std::fill(std::begin(block.bias), std::end(block.bias), 0.0);
     std::fill(std::begin(block.impulse), std::end(block.impulse), 0.0);
     if (!block.is_contact()) continue;
-    const Impact hit = impact(sub, u, block);
-    if (hit.speed > 0.0) {
-      any = true;
-      struck_[i] = 1;
-      const double part = hit.time / sub.dt;
-      if (part < first) {
-        first = part;
-        const double change = (1.0 + restitution_of(block)) * hit.speed;
-        late_ = part - 0.5 * part * (1.0 - part) * sub.dt * hit.acceleration / change;
-      }
-    }
-    block.bias[0] = hit.speed > 0.0 ? -restitution_of(block) * hit.speed + hit.kick : kOpen;
     std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
+    if (!(hit.speed > 0.0) || hit.time > first + kSimultaneous * sub.dt) {
+      block.bias[0] = kOpen;
+      hit = {};
+      continue;
+    }
+    struck_[i] = 1;
+    const double e = share * restitution_of(block);
+    block.bias[0] = -e * hit.speed + hit.kick;
+    if (hit.time > first) continue;
+    since_ = first / sub.dt;
+    const double change = (1.0 + e) * hit.speed;
+    late_ = since_ - 0.5 * since_ * (1.0 - since_) * sub.dt * hit.acceleration / change;
   }
-  // An impact that another one causes is not before it.
-  if (first < since_) late_ = since_;
-  since_ = std::max(since_, first);
-  return any;
+  return std::isfinite(first);
 }
 
 }  // namespace substep

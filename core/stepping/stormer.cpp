@@ -282,7 +282,7 @@ void Stormer::move_poses(const Substep& sub, State& state) {
     store_changes(sub, i, a, state);
     state.acceleration[i] = a;
   }
-  integrate(*sub.part, sub.dt, w_, state, sub.shift);
+  integrate(sub, w_, turn_momentum, state);
   settle_momentum(sub, state);
 }
 

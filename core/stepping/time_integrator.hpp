@@ -19,6 +19,17 @@ class TimeIntegrator {
   [[nodiscard]] virtual double force_time(double dt_previous, double dt) const = 0;
   /// Sets state.u to the velocity that the forces of the sub-step act on.
   virtual void begin(const Substep& sub, State& state) = 0;
+  /// Forgets the impacts of an earlier solve of the sub-step.
+  virtual void begin_solve(const Substep& /*sub*/) {}
+  /// A body's angular velocity at the start of the sub-step: Substep::u_before may be of its
+  /// middle.
+  [[nodiscard]] virtual Vec3 spin_at_start(const Substep& sub, std::size_t body) const {
+    return sub.u_before[body].tail<3>();
+  }
+  /// Takes it after impacts. @return that of Substep::u_before
+  virtual Vec3 strike(const Substep& /*sub*/, std::size_t /*body*/, const Vec3& spin_at_start) {
+    return spin_at_start;
+  }
   /// Continues the force that seeds a block.
   virtual void seed(const StoredForce& /*of_last*/, const State& /*state*/,
                     Block& /*block*/) const {}

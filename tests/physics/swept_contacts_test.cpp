@@ -387,6 +387,82 @@ TEST(SweptContacts, RandomPilesGainNoEnergy) {
   EXPECT_GT(gains, 20);
 }
 
+/// A box of unequal moments that tumbles fast onto a floor, or two that hit each other in space.
+Scene tumbling(unsigned seed, double e, double friction, bool in_space) {
+  std::mt19937_64 random(seed);
+  const auto number = [&](double least, double most) {
+    return least + (most - least) * (static_cast<double>(random() >> 11) * 0x1p-53);
+  };
+  SceneBuilder builder("tumbling");
+  builder.scene().gravity = in_space ? Vec3(Vec3::Zero()) : Vec3(0.0, -kGravity, 0.0);
+  if (!in_space) builder.body(builder.add_fixed(Plane{}, Vec3::Zero())).friction = friction;
+  for (int i = 0; i < (in_space ? 2 : 1); ++i) {
+    const Vec3 half{0.3, number(0.03, 0.3), number(0.03, 0.3)};
+    const int box =
+        builder.add_body(Box{half}, number(0.5, 2.0), {1.2 * i, in_space ? 0.0 : 1.0, 0.0});
+    Body& body = builder.body(box);
+    body.orientation =
+        Quat{number(-1, 1), number(-1, 1), number(-1, 1), number(-1, 1)}.normalized();
+    body.velocity =
+        in_space ? Vec3(i == 0 ? 3.0 : -3.0, 0.0, 0.0) : Vec3(number(-5, 5), -2.0, number(-5, 5));
+    body.angular_velocity = {number(-20, 20), number(-20, 20), number(-20, 20)};
+    body.friction = friction;
+    body.restitution = e;
+  }
+  return *builder.build();
+}
+
+TEST(SweptContacts, TumblingBoxesKeepTheirEnergyInElasticImpacts) {
+  for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
+    for (const bool in_space : {false, true}) {
+      int impacts = 0;
+      for (unsigned seed = 0; seed < 10; ++seed) {
+        const Scene scene = tumbling(seed, 1.0, 0.0, in_space);
+        for (const int n : {0, 8, 64}) {  // 0: adaptive
+          SCOPED_TRACE(std::to_string(seed) + " n " + std::to_string(n));
+          Settings settings = n == 0 ? Settings(find_preset("steady")->settings) : steady_at(n);
+          settings.integrator = integrator;
+          double energy = 0.0;
+          const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+            if (report.frame == 1) energy = report.energy;
+            impacts += static_cast<int>(report.work.impacts);
+            EXPECT_EQ(report.lowered, 0);
+            EXPECT_NEAR(report.energy, energy, 1e-3 * energy);
+          };
+          run(scene, settings, 3.0, every, false);
+        }
+      }
+      EXPECT_GT(impacts, in_space ? 20 : 100);
+    }
+  }
+}
+
+// Newton's law with friction adds energy (Kane and Levinson 1985).
+TEST(SweptContacts, RestitutionIsLoweredWhereItWouldAddEnergy) {
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    int lowered = 0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      for (const double e : {0.5, 0.9, 1.0}) {
+        SCOPED_TRACE(std::to_string(seed) + " e " + std::to_string(e));
+        Settings settings = find_preset("steady")->settings;
+        settings.solver = solver;
+        double energy = std::numeric_limits<double>::infinity();
+        double kinetic = 0.0;
+        const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+          kinetic = std::max(kinetic, report.kinetic);
+          EXPECT_LT(report.energy, energy + 0.01 * kinetic);
+          energy = std::min(energy, report.energy);
+          lowered += report.lowered;
+          EXPECT_EQ(report.lowered > 0, report.lowered_to < 1.0);
+          EXPECT_GE(report.lowered_to, 0.0);
+        };
+        run(tumbling(seed, e, 1.0, false), settings, 3.0, every, false);
+      }
+    }
+    EXPECT_GT(lowered, 20);
+  }
+}
+
 TEST(SweptContacts, ARowOfBallsPassesAnImpactOn) {
   SceneBuilder builder("row");
   for (int i = 0; i < 5; ++i) {

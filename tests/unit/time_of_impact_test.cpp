@@ -101,6 +101,45 @@ TEST(TimeOfImpact, OfTumblingBoxesIsThatOfASampledMotion) {
   EXPECT_GT(misses, 5);
 }
 
+// The corner that touches first moves slowly while the others turn fast.
+TEST(TimeOfImpact, OfACornerThatApproachesSlowly) {
+  const Box shape{{0.3, 0.1, 0.11}};
+  const Mover floor{Box{{5.0, 0.5, 5.0}}, {0.0, -0.5, 0.0}};
+  int hits = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    auto number = [&, k = 0U]() mutable {
+      ++k;
+      const double s = 43758.5453 * std::sin(12.9898 * seed + 78.233 * k);
+      return 2.0 * (s - std::floor(s)) - 1.0;
+    };
+    Mover box{shape};
+    box.R = Quat(number(), number(), number(), number()).normalized().toRotationMatrix();
+    const Vec3 omega{8.0 * number(), 8.0 * number(), 8.0 * number()};
+    Vec3 lowest = Vec3::Zero();
+    for (unsigned i = 0; i < 8; ++i) {
+      const Vec3 r = box.R * shape.corner(i);
+      if (r.y() < lowest.y()) lowest = r;
+    }
+    const double gap = 4e-4;
+    const double slow = 0.05 * (1.0 + number());
+    box.x.y() = gap - lowest.y();
+    box.w << 0.2, -slow - omega.cross(lowest).y(), 1.4, omega;
+    const double until = kStep / 4.0;
+    ContactPoints scratch;
+    const auto time = time_of_impact(floor.travel(0), box.travel(1), until, 0.0, 1e-7, scratch);
+    const double least = least_gap(floor, box, time.value_or(until));
+    if (time) {
+      ++hits;
+      EXPECT_GT(least, 0.0);
+      EXPECT_LT(least, 2e-7);
+    } else {
+      EXPECT_GT(least, 0.0);
+    }
+  }
+  EXPECT_GT(hits, 15);
+}
+
 TEST(TimeOfImpact, FindsTheDepthOfAnOverlapOnTheWay) {
   Mover ball{Sphere{0.1}, {0.0, 0.1, 0.0}};
   ball.w[1] = -1.0;

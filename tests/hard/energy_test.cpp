@@ -1,0 +1,379 @@
+// Random mechanisms and piles with the default settings keep their energy. Twenty of each by day;
+// SUBSTEP_RANDOM_SCENES=1000 by night. Each is built from its number alone.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/io/scene_writer.hpp"
+#include "core/math/random.hpp"
+#include "core/model/format_text.hpp"
+#include "core/model/scene_builder.hpp"
+#include "core/sim/start.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep::test {
+namespace {
+
+/// A random number generator that says what is drawn.
+class Dice {
+ public:
+  explicit Dice(int seed) : random_(static_cast<std::uint64_t>(seed)) {}
+  double number(double least, double most) {
+    return least + 0.5 * (most - least) * (random_.next() + 1.0);
+  }
+  /// Uniform in the logarithm.
+  double scale(double least, double most) {
+    return least * std::pow(most / least, number(0.0, 1.0));
+  }
+  int whole(int least, int most) {
+    return std::min(most, least + static_cast<int>(number(0.0, most - least + 1.0)));
+  }
+  Vec3 direction() {
+    Vec3 v = Vec3::Zero();
+    do v = {random_.next(), random_.next(), random_.next()};
+    while (v.norm() > 1.0 || v.norm() < 0.1);
+    return v.normalized();
+  }
+  Quat turn() { return Quat{Eigen::AngleAxisd(number(0.0, std::numbers::pi), direction())}; }
+
+ private:
+  Random random_;
+};
+
+/// A mechanism in the making: bodies between points, so that every joint starts closed.
+class Mechanism {
+ public:
+  Mechanism(const std::string& name, Dice& dice) : dice_(dice), builder_(name) {}
+
+  /// A rod, or a thicker box of unequal moments, from one point to another.
+  int add_between(const Vec3& from, const Vec3& to) {
+    const Vec3 along = to - from;
+    const double length = along.norm();
+    const Box shape{
+        {0.5 * length, length * dice_.number(0.02, 0.3), length * dice_.number(0.02, 0.3)}};
+    const int body = builder_.add_body(shape, dice_.scale(0.05, 50.0), 0.5 * (from + to));
+    builder_.body(body).orientation =
+        Quat::FromTwoVectors(Vec3::UnitX(), along) *
+        Quat{Eigen::AngleAxisd(dice_.number(-3.0, 3.0), Vec3::UnitX())};
+    builder_.body(body).velocity = 10.0 * dice_.number(0.0, 1.0) * dice_.direction();
+    builder_.body(body).angular_velocity = dice_.number(0.0, 30.0) * dice_.direction();
+    return body;
+  }
+  int add_between(const Vec3& from, const Vec3& to, const Vec3& axis) {
+    const int body = add_between(from, to);
+    builder_.body(body).velocity -= builder_.body(body).velocity.dot(axis) * axis;
+    builder_.body(body).angular_velocity = dice_.number(-30.0, 30.0) * axis;
+    return body;
+  }
+  /// A ball joint or a hinge of any axis.
+  void join(int a, int b, const Vec3& point) {
+    if (dice_.whole(0, 1) == 0) {
+      builder_.add_ball_joint(a, b, point);
+    } else {
+      builder_.add_hinge(a, b, point, dice_.direction());
+    }
+  }
+
+  SceneBuilder& builder() { return builder_; }
+
+  /// With velocities that fit the joints, and joints that turn at 30 rad/s at most.
+  Scene finished() {
+    builder_.scene().gravity = kGravity * dice_.direction();
+    Scene scene = *builder_.build();
+    scene.effects.contact = scene.effects.friction = scene.effects.restitution = false;
+    scene = *with_start_of_run(shared(scene));
+    const auto spin = [&](int body) -> Vec3 {
+      return body == kWorld ? Vec3::Zero() : scene.bodies[index(body)].angular_velocity;
+    };
+    double fastest = 0.0;
+    for (const Joint& joint : scene.joints) {
+      fastest = std::max(fastest, (spin(base(joint).a) - spin(base(joint).b)).norm());
+    }
+    const double factor = std::min(1.0, 30.0 / fastest);
+    for (Body& body : scene.bodies) {
+      body.velocity *= factor;
+      body.angular_velocity *= factor;
+    }
+    return scene;
+  }
+
+ private:
+  Dice& dice_;
+  SceneBuilder builder_;
+};
+
+/// A chain of hinges about one axis, from the world or free.
+Scene chain_in_a_plane(Dice& dice) {
+  Mechanism made("chain_in_a_plane", dice);
+  const Quat turn = dice.turn();
+  const Vec3 axis = turn * Vec3::UnitZ();
+  Vec3 end = Vec3::Zero();
+  int last = kWorld;
+  const int count = dice.whole(1, 6);
+  for (int i = 0; i < count; ++i) {
+    const double angle = dice.number(-3.0, 3.0);
+    const Vec3 next =
+        end + dice.scale(0.1, 1.0) * (turn * Vec3{std::cos(angle), std::sin(angle), 0.0});
+    const int body = made.add_between(end, next, axis);
+    made.builder().add_hinge(body, last, end, axis);
+    last = body;
+    end = next;
+  }
+  return made.finished();
+}
+
+/// Branches of ball joints and hinges of any axes, from the world or free.
+Scene tree_in_space(Dice& dice) {
+  Mechanism made("tree_in_space", dice);
+  std::vector<std::pair<int, Vec3>> ends{{kWorld, Vec3::Zero()}};
+  const int count = dice.whole(2, 8);
+  const bool free = dice.whole(0, 3) == 0;
+  for (int i = 0; i < count; ++i) {
+    const auto [parent, from] = ends[index(dice.whole(i > 0 ? 1 : 0, i))];
+    const Vec3 to = from + dice.scale(0.1, 1.0) * dice.direction();
+    const int body = made.add_between(from, to);
+    if (i > 0 || !free) made.join(body, parent, from);
+    ends.emplace_back(body, to);
+  }
+  return made.finished();
+}
+
+/// A chain in space of which one joint slides.
+Scene chain_with_a_slide(Dice& dice) {
+  Mechanism made("chain_with_a_slide", dice);
+  Vec3 end = Vec3::Zero();
+  int last = kWorld;
+  const int count = dice.whole(1, 5);
+  const int slide = dice.whole(0, count - 1);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 next = end + dice.scale(0.1, 1.0) * dice.direction();
+    const int body = made.add_between(end, next);
+    if (i == slide) {
+      made.builder().add_prismatic(body, last, end, dice.direction());
+    } else {
+      made.join(body, last, end);
+    }
+    last = body;
+    end = next;
+  }
+  return made.finished();
+}
+
+/// Bodies from the world to the world.
+/// @param points of the joints
+template <class Add, class Join>
+Scene loop(Mechanism& made, const std::vector<Vec3>& points, Add&& add, Join&& join) {
+  int last = kWorld;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const int body = add(points[i], points[i + 1]);
+    join(body, last, points[i]);
+    last = body;
+  }
+  join(last, kWorld, points.back());
+  return made.finished();
+}
+
+/// Three to five bars and the ground: planar, turned in space, with redundant rows.
+Scene loop_in_a_plane(Dice& dice) {
+  Mechanism made("loop_in_a_plane", dice);
+  const Quat turn = dice.turn();
+  const Vec3 axis = turn * Vec3::UnitZ();
+  std::vector<Vec3> points;
+  const int count = dice.whole(4, 6);
+  for (int i = 0; i < count; ++i) {
+    const double angle = (i + dice.number(-0.3, 0.3)) / count * 2.0 * std::numbers::pi;
+    const double radius = dice.number(0.3, 1.0);
+    points.emplace_back(turn * Vec3{radius * std::cos(angle), radius * std::sin(angle), 0.0});
+  }
+  return loop(
+      made, points,
+      [&](const Vec3& from, const Vec3& to) { return made.add_between(from, to, axis); },
+      [&](int a, int b, const Vec3& point) { made.builder().add_hinge(a, b, point, axis); });
+}
+
+std::vector<Vec3> polygon_in_space(Dice& dice, int count) {
+  std::vector<Vec3> points{Vec3::Zero()};
+  while (static_cast<int>(points.size()) < count) {
+    points.emplace_back(points.back() + dice.number(0.2, 1.0) * dice.direction());
+  }
+  return points;
+}
+
+Scene loop_of_ball_joints(Dice& dice) {
+  Mechanism made("loop_of_ball_joints", dice);
+  return loop(
+      made, polygon_in_space(dice, dice.whole(3, 7)),
+      [&](const Vec3& from, const Vec3& to) { return made.add_between(from, to); },
+      [&](int a, int b, const Vec3& point) { made.builder().add_ball_joint(a, b, point); });
+}
+
+/// Seven hinges of any axes: one degree of freedom.
+Scene loop_of_hinges(Dice& dice) {
+  Mechanism made("loop_of_hinges", dice);
+  return loop(
+      made, polygon_in_space(dice, 7),
+      [&](const Vec3& from, const Vec3& to) { return made.add_between(from, to); },
+      [&](int a, int b, const Vec3& point) {
+        made.builder().add_hinge(a, b, point, dice.direction());
+      });
+}
+
+/// A crank, a connecting rod that is longer, and a slider.
+Scene slider_crank(Dice& dice) {
+  Mechanism made("slider_crank", dice);
+  const Quat turn = dice.turn();
+  const Vec3 axis = turn * Vec3::UnitZ();
+  const double crank = dice.scale(0.1, 0.5);
+  const double angle = dice.number(-3.0, 3.0);
+  const double rod = crank * dice.number(1.3, 4.0);
+  const Vec3 end{crank * std::cos(angle), crank * std::sin(angle), 0.0};
+  const Vec3 pin{end.x() + std::sqrt(rod * rod - end.y() * end.y()), 0.0, 0.0};
+  const Vec3 beyond{pin.x() + 0.2, 0.0, 0.0};
+  const int first = made.add_between(Vec3::Zero(), turn * end, axis);
+  const int second = made.add_between(turn * end, turn * pin, axis);
+  const int slider = made.add_between(turn * pin, turn * beyond, axis);
+  made.builder().add_hinge(first, kWorld, Vec3::Zero(), axis);
+  made.builder().add_hinge(second, first, turn * end, axis);
+  made.builder().add_hinge(slider, second, turn * pin, axis);
+  made.builder().add_prismatic(slider, kWorld, turn * pin, turn * Vec3::UnitX());
+  return made.finished();
+}
+
+Scene random_mechanism(int seed) {
+  Dice dice(seed);
+  switch (seed % 7) {
+    case 0:
+      return chain_in_a_plane(dice);
+    case 1:
+      return tree_in_space(dice);
+    case 2:
+      return chain_with_a_slide(dice);
+    case 3:
+      return loop_in_a_plane(dice);
+    case 4:
+      return loop_of_ball_joints(dice);
+    case 5:
+      return loop_of_hinges(dice);
+    default:
+      return slider_crank(dice);
+  }
+}
+
+/// Spheres and boxes that fall on a floor and on each other; in every third pile they rebound.
+Scene random_pile(int seed) {
+  Dice dice(seed);
+  SceneBuilder builder("pile");
+  builder.scene().gravity = {0.0, -kGravity, 0.0};
+  builder.add_fixed(Box{{5.0, 0.5, 5.0}}, {0.0, -0.5, 0.0});
+  const int count = dice.whole(2, 12);
+  const bool rebounds = seed % 3 == 0;
+  for (int i = 0; i < count; ++i) {
+    const double size = dice.scale(0.05, 0.4);
+    const Vec3 place{dice.number(-0.6, 0.6), 0.5 + 0.8 * i, dice.number(-0.6, 0.6)};
+    const Shape shape =
+        dice.whole(0, 1) == 0
+            ? Shape{Sphere{size}}
+            : Shape{Box{{size, dice.number(0.3, 1.0) * size, dice.number(0.3, 1.0) * size}}};
+    const int body = builder.add_body(shape, dice.scale(0.1, 100.0), place);
+    builder.body(body).orientation = dice.turn();
+    builder.body(body).angular_velocity = dice.number(0.0, 5.0) * dice.direction();
+    builder.body(body).velocity = dice.number(0.0, 2.0) * dice.direction();
+    builder.body(body).friction = dice.number(0.0, 1.0);
+    if (rebounds) builder.body(body).restitution = dice.number(0.0, 1.0);
+  }
+  return *builder.build();
+}
+
+int how_many() {
+  const char* text = std::getenv("SUBSTEP_RANDOM_SCENES");
+  return text ? std::atoi(text) : 20;
+}
+
+/// What is wrong with a run of the default settings, or "".
+/// @param most_change of the energy, as a share of E; none where friction and impacts take energy
+std::string fault(const Scene& scene, double seconds, std::optional<double> most_change) {
+  double size = 0.0;
+  double weight = 0.0;
+  for (const Body& body : scene.bodies) {
+    if (body.is_static) continue;
+    size = std::max(size, radius_around(body.shape));
+    weight += body.mass * kGravity;
+  }
+  double start = 0.0;
+  double lowest = 0.0;
+  double rise = 0.0;
+  double change = 0.0;
+  double kinetic = 0.0;
+  double most_potential = -1e300;
+  double least_potential = 1e300;
+  double gap = 0.0;
+  double reach = size;  // also of what slides away
+  int most_n = 0;
+  StepStatus status = StepStatus::kOk;
+  const EveryFrame every = [&](const Simulator& simulator, const FrameReport& report) {
+    for (const Vec3& x : simulator.state().x) reach = std::max(reach, x.norm());
+    status = report.status;
+    if (report.frame == 1) start = lowest = report.energy;
+    lowest = std::min(lowest, report.energy);
+    rise = std::max(rise, report.energy - lowest);
+    change = std::max(change, std::abs(report.energy - start));
+    kinetic = std::max(kinetic, report.kinetic);
+    most_potential = std::max(most_potential, report.potential);
+    least_potential = std::min(least_potential, report.potential);
+    gap = std::max(gap, report.joint_gap);
+    most_n = std::max(most_n, report.n_substeps);
+  };
+  const Outcome outcome = run(scene, substep::Settings{}, seconds, every, false);
+  const double scale = std::max(kinetic, most_potential - least_potential);
+  const double noise = 1e-9 * weight * size;
+  std::string wrong;
+  if (status != StepStatus::kOk) wrong += "stops; ";
+  if (!outcome.holds) wrong += outcome.verdict + "; ";
+  if (!(rise <= 0.01 * scale + noise))
+    wrong += format_text("rises by %.3g %%; ", 100.0 * rise / scale);
+  if (most_change && !(change <= *most_change * scale + noise)) {
+    wrong += format_text("changes by %.3g %%; ", 100.0 * change / scale);
+  }
+  if (!(gap < 1e-9 * reach)) wrong += format_text("gap %.3g m; ", gap);
+  if (!wrong.empty()) wrong += format_text("N up to %d", most_n);
+  return wrong;
+}
+
+/// Runs many, names those with a fault, and returns how many there were.
+template <class Build>
+int faults(const char* what, Build&& build, double seconds, std::optional<double> most_change) {
+  int wrong = 0;
+  for (int seed = 1; seed <= how_many(); ++seed) {
+    const Scene scene = build(seed);
+    const std::string text = fault(scene, seconds, most_change);
+    if (text.empty()) continue;
+    ++wrong;
+    std::printf("%s %d, %s: %s\n", what, seed, scene.name.c_str(), text.c_str());
+    if (const char* folder = std::getenv("SUBSTEP_KEEP_SCENES")) {
+      const std::string file = std::string(folder) + "/" + what + std::to_string(seed) + ".json";
+      if (std::FILE* out = std::fopen(file.c_str(), "w")) {
+        std::fputs(write_scene(scene).c_str(), out);
+        std::fclose(out);
+      }
+    }
+  }
+  return wrong;
+}
+
+TEST(RandomEnergy, OfMechanismsStays) {
+  EXPECT_LE(faults("mechanism", random_mechanism, 20.0, 0.02), how_many() / 100);
+}
+
+TEST(RandomEnergy, OfPilesNeverRises) {
+  EXPECT_LE(faults("pile", random_pile, 10.0, std::nullopt), how_many() / 100);
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -20,6 +20,8 @@ void RunReport::add(const FrameReport& report) {
   last_ = report;
   capped_frames_ += report.capped ? 1 : 0;
   substeps_of_a_body_ += report.n_mean;
+  lowered_ += report.lowered;
+  lowered_to_ = std::min(lowered_to_, report.lowered_to);
   most_asleep_ = std::max(most_asleep_, report.asleep);
   has_islands_ = has_islands_ || report.islands > 0;
 }
@@ -66,6 +68,12 @@ std::string RunReport::summary(const Metrics& metrics) const {
   }
   if (const auto& overlap = metrics.errors.penetration) {
     text += format_text("penetration  %.2e m at most\n", overlap->peak);
+  }
+  if (lowered_ > 0) {
+    text += format_text(
+        "restitution  lowered %d times, to %.2g of e at the least: Newton's law "
+        "would add energy\n",
+        lowered_, lowered_to_);
   }
   if (work.substeps > 0) {
     const double computing = metrics.timing.stages.total;

@@ -28,6 +28,8 @@ class RunReport {
   std::int64_t capped_frames_ = 0;
   double substeps_of_a_body_ = 0.0;
   int most_asleep_ = 0;
+  int lowered_ = 0;
+  double lowered_to_ = 1.0;
   bool has_islands_ = false;
 };
 

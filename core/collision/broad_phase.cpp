@@ -76,6 +76,7 @@ void BroadPhase::update(const Scene& scene, const Part& part, const State& state
     reach_[index(body)] =
         half_extents(scene.bodies[index(body)].shape, R_WB[index(body)]) + Vec3::Constant(around);
   }
+  visits_ += 2 * std::ssize(solids_);
   if (!has_room(part, state)) sweep(scene, state);
 }
 
@@ -99,11 +100,13 @@ void BroadPhase::sweep(const Scene& scene, const State& state) {
   // The order of ties is irrelevant: the pairs are sorted below.
   std::sort(intervals_.begin(), intervals_.end(),
             [](const Interval& p, const Interval& q) { return p.lo < q.lo; });
+  visits_ += 2 * std::ssize(solids_);
   pairs_.clear();
   for (std::size_t p = 0; p < intervals_.size() && !too_many(); ++p) {
     const Swept& a = swept_[index(intervals_[p].body)];
     for (std::size_t q = p + 1; q < intervals_.size() && intervals_[q].lo <= intervals_[p].hi;
          ++q) {
+      ++visits_;
       const Swept& b = swept_[index(intervals_[q].body)];
       if (!within(a.x - b.x, a.reach + b.reach + Vec3::Constant(a.room + b.room))) continue;
       const int i = std::min(intervals_[p].body, intervals_[q].body);

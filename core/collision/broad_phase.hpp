@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/model/part.hpp"
@@ -37,6 +39,9 @@ class BroadPhase {
   /// True if there are more pairs than kMaxPairs; then the list is incomplete.
   [[nodiscard]] bool too_many() const { return pairs_.size() > kMaxPairs; }
 
+  /// Solids and pairs looked at since the last call.
+  std::int64_t take_visits() { return std::exchange(visits_, 0); }
+
   [[nodiscard]] std::span<const int> solids() const { return solids_; }
   /// True if collisions between two bodies are enabled.
   [[nodiscard]] bool may_touch(const Scene& scene, int i, int j) const;
@@ -63,6 +68,7 @@ class BroadPhase {
   std::vector<Interval> intervals_;
   std::vector<Pair> pairs_;
   bool valid_ = false;
+  std::int64_t visits_ = 0;
 };
 
 }  // namespace substep

@@ -69,6 +69,7 @@ std::span<const BroadPhase::Pair> Detector::within_reach(const Scene& scene, con
                                                          std::span<const double> way) {
   broad_phase_.update(scene, part, state, R_WB, way);
   near_.clear();
+  visits_ += std::ssize(broad_phase_.pairs());
   std::copy_if(broad_phase_.pairs().begin(), broad_phase_.pairs().end(), std::back_inserter(near_),
                [&](const BroadPhase::Pair& pair) {
                  return part.holds(pair.i) && part.holds(pair.j) &&
@@ -92,6 +93,7 @@ void Detector::find(const Scene& scene, const Part& part, const State& state,
   for (const Ground& ground : grounds_) {
     const Placed plane{ground.body, state.x[index(ground.body)], R_WB[index(ground.body)]};
     const Vec3 n = plane.R.col(1);
+    visits_ += std::ssize(ground.solids);
     for (const int body : ground.solids) {
       if (points_.size() > limit_) return;
       if (!part.holds(body)) continue;
@@ -102,6 +104,7 @@ void Detector::find(const Scene& scene, const Part& part, const State& state,
                    plane, Plane{}, near, points_);
     }
   }
+  visits_ += std::ssize(broad_phase_.pairs());
   for (const BroadPhase::Pair& pair : broad_phase_.pairs()) {
     if (too_many()) return;
     if (!part.holds(pair.i) || !part.holds(pair.j)) continue;
@@ -146,6 +149,7 @@ std::span<const BroadPhase::Pair> Detector::may_meet(const Scene& scene, const P
   within_reach(scene, part, state, R_WB, way_);
   for (const Ground& ground : grounds_) {
     const Vec3 n = R_WB[index(ground.body)].col(1);
+    visits_ += std::ssize(ground.solids);
     for (const int body : ground.solids) {
       if (!part.holds(body)) continue;
       const double height = n.dot(state.x[index(body)] - state.x[index(ground.body)]);
@@ -170,6 +174,7 @@ std::span<const ContactPoint> Detector::detect_listed(const Scene& scene, const 
                                                       std::span<const Mat3> R_WB, double ahead) {
   look_ahead(scene, state, ahead);
   points_.clear();
+  visits_ += std::ssize(listed_);
   for (const BroadPhase::Pair& pair : listed_) {
     if (too_many()) break;
     if (part.holds(pair.i) && part.holds(pair.j)) touch(scene, state, R_WB, pair);

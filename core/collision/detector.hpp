@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/collision/broad_phase.hpp"
@@ -60,6 +62,8 @@ class Detector {
   std::span<const BroadPhase::Pair> within_reach(const Scene& scene, const Part& part,
                                                  const State& state, std::span<const Mat3> R_WB,
                                                  std::span<const double> way);
+  /// Solids and pairs looked at since the last call.
+  std::int64_t take_visits() { return broad_phase_.take_visits() + std::exchange(visits_, 0); }
   /// True if the last call stopped at a limit.
   [[nodiscard]] bool too_many() const { return broad_phase_.too_many() || points_.size() > limit_; }
 
@@ -89,6 +93,7 @@ class Detector {
   ContactPoints points_;
   Pairs near_;
   Pairs listed_;
+  std::int64_t visits_ = 0;
 };
 
 }  // namespace substep

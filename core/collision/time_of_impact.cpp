@@ -93,11 +93,12 @@ Waypoint after(const Travel& travel, double time) {
 }
 
 std::optional<double> time_of_impact(const Travel& a, const Travel& b, double dt, double level,
-                                     double accuracy, ContactPoints& scratch) {
+                                     double accuracy, ContactPoints& scratch, std::int64_t& steps) {
   constexpr int kMost = 100;  // of two shapes that graze each other
   const Vec3 approach = b.w.head<3>() - a.w.head<3>();
   double time = 0.0;
   for (int i = 0; i < kMost; ++i) {
+    ++steps;
     const Waypoint on_a = after(a, time);
     const Waypoint on_b = after(b, time);
     const Separation apart = separation(on_a.placed(), a.shape, on_b.placed(), b.shape, scratch);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "core/collision/shape_pairs.hpp"
@@ -30,8 +31,9 @@ Waypoint after(const Travel& travel, double time);
 /// one at which they are still apart.
 /// @param dt the sub-step [s]  @param level < 0 for an overlap [m]
 /// @param accuracy within which the level is reached [m]  @param scratch its contents are lost
+/// @param steps increased by the number of poses tried
 /// @return in [0, dt) [s], or nothing if they miss each other
 std::optional<double> time_of_impact(const Travel& a, const Travel& b, double dt, double level,
-                                     double accuracy, ContactPoints& scratch);
+                                     double accuracy, ContactPoints& scratch, std::int64_t& steps);
 
 }  // namespace substep

@@ -93,7 +93,7 @@ SweptContacts::Found SweptContacts::correct(const Sweep& sweep, const BroadPhase
   const Travel b = travel_of(sweep, pair.j);
   const double deep = kDeep * half_width;
   const double time =
-      time_of_impact(a, b, sweep.dt, floor - deep, 0.5 * deep, points_).value_or(sweep.dt);
+      time_of_impact(a, b, sweep.dt, floor - deep, 0.5 * deep, points_, visits_).value_or(sweep.dt);
   const Waypoint on_a = after(a, time);
   const Waypoint on_b = after(b, time);
   points_.clear();
@@ -123,7 +123,7 @@ SweptContacts::Found SweptContacts::meet(const Sweep& sweep, const BroadPhase::P
   const Travel a = travel_of(sweep, pair.i);
   const Travel b = travel_of(sweep, pair.j);
   const std::optional<double> time =
-      time_of_impact(a, b, sweep.dt, 0.0, kTouching * half_width, points_);
+      time_of_impact(a, b, sweep.dt, 0.0, kTouching * half_width, points_, visits_);
   if (!time) return Found::kNothing;
   earliest_ = std::min(earliest_, *time);
   // Two corners can meet without a point within either face; a little later there is one.
@@ -150,6 +150,7 @@ SweptContacts::Found SweptContacts::meet(const Sweep& sweep, const BroadPhase::P
 SweptContacts::Found SweptContacts::append(const Sweep& sweep, Detector& detector,
                                            std::size_t first, Blocks& blocks) {
   list_rows(blocks.from(first));
+  visits_ += std::ssize(rows_);
   earliest_ = sweep.dt;
   Found all = Found::kNothing;
   for (const BroadPhase::Pair& pair :

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/collision/detector.hpp"
@@ -35,6 +36,9 @@ class SweptContacts {
   /// Until when the last motion kept all shapes apart, from the start of the sub-step [s].
   [[nodiscard]] double earliest() const { return earliest_; }
 
+  /// Rows and pairs looked at, and poses tried, since the last call.
+  std::int64_t take_visits() { return std::exchange(visits_, 0); }
+
   /// An overlap that is left as it is, of the half width of the narrower shape.
   static constexpr double kAllowedOverlap = 1e-4;
 
@@ -58,6 +62,7 @@ class SweptContacts {
   std::vector<Pair> pairs_;                                  // sorted
   ContactPoints points_;
   double earliest_ = 0.0;
+  std::int64_t visits_ = 0;
 };
 
 }  // namespace substep

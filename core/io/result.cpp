@@ -53,6 +53,7 @@ Json work_json(const Work& w) {
           {"unsettled", w.unsettled},
           {"unsolved", w.unsolved},
           {"flops", w.flops},
+          {"visits", w.visits},
           {"rows",
            {{"joint", w.rows.joint}, {"contact", w.rows.contact}, {"friction", w.rows.friction}}},
           {"criterion", {{"evaluations", w.criterion.evaluations}, {"flops", w.criterion.flops}}},

@@ -73,6 +73,7 @@ void Measure::add(const Scene& scene, const State& state, const FrameReport& rep
   work_.unsettled += report.work.unsettled;
   work_.unsolved += report.work.unsolved;
   work_.flops += report.work.flops;
+  work_.visits += report.visits;
   work_.rows += report.work.rows;
   work_.criterion += report.criterion;
   n_.push_back(report.n_substeps);

@@ -47,8 +47,9 @@ struct Work {
   std::int64_t pivots = 0;
   std::int64_t unsettled = 0;
   std::int64_t unsolved = 0;
-  std::int64_t flops = 0;  // of the solver
-  RowCounts rows;          // of all solves, by kind
+  std::int64_t flops = 0;   // of the solver
+  std::int64_t visits = 0;  // outside the solver: FrameReport::visits
+  RowCounts rows;           // of all solves, by kind
   CriterionWork criterion;
   int n_min = 0;  // sub-steps of a frame
   int n_median = 0;

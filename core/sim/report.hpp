@@ -156,6 +156,7 @@ struct FrameReport {
   int friction_rows = 0;  // in the last sub-step
   SolverWork work;
   CriterionWork criterion;
+  std::int64_t visits = 0;  // bodies, rows, pairs and stored forces looked at outside the solver
   StageTimes times;
   StagesRun stages;
 };

@@ -132,6 +132,7 @@ struct Simulator::Impl {
   /// reaches the surface in one sub-step and comes to rest in the next.
   bool ends_impact(const Substep& sub, const Block& block) const;
   void predict_motions(const Substep& sub);  // w, motions
+  void count_visits(const Substep& sub, FrameReport& report);
   void count_work(const Substep& sub, const SolveReport& solved, FrameReport& report);
   bool finite(const Substep& sub, FrameReport& report);
   void stop(const Substep& sub, int body, FrameReport& report);  // body with a non-finite number

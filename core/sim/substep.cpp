@@ -192,6 +192,13 @@ void Simulator::Impl::count_work(const Substep& sub, const SolveReport& solved,
   if (solved.status == SolveStatus::kUnsettled) ++work.unsettled;
 }
 
+void Simulator::Impl::count_visits(const Substep& sub, FrameReport& report) {
+  report.visits += std::ssize(sub.part->moving) + std::ssize(sub.rows) +
+                   index_of_last_frame.take_visits() + index_of_part.take_visits();
+  if (contact) report.visits += contact->detector().take_visits();
+  if (swept) report.visits += swept->take_visits();
+}
+
 // Checks the kinetic energy, which overflows long before the velocities.
 bool Simulator::Impl::finite(const Substep& sub, FrameReport& report) {
   double squares = 0.0;
@@ -283,6 +290,7 @@ void Simulator::Impl::advance_poses(const Substep& sub, FrameReport& report) {
     if (!looks_for_islands(settings)) state.own.clear();  // all bodies share one clock
   }
   substeps_of_bodies += static_cast<std::int64_t>(sub.part->moving.size());
+  count_visits(sub, report);
   report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);
   report.dt_max = std::max(report.dt_max, dt);
   clock.lap(report.times.integrate);

@@ -1,6 +1,7 @@
 #include "core/stepping/stored_forces.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/constraints/grab_rows.hpp"
 #include "core/stepping/compliance.hpp"
@@ -37,7 +38,9 @@ std::size_t StoredForceIndex::find(std::span<const StoredForce> forces, std::uin
     for (std::size_t i = 0; i < forces.size(); ++i) sorted_.emplace_back(forces[i].id, i);
     std::sort(sorted_.begin(), sorted_.end());
     is_sorted_ = true;
+    visits_ += std::ssize(sorted_);
   }
+  visits_ += static_cast<std::int64_t>(std::bit_width(sorted_.size()));
   for (const std::size_t least : {from, std::size_t{0}}) {
     const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(id, least));
     if (found != sorted_.end() && found->first == id) return found->second;

@@ -26,9 +26,13 @@ class StoredForceIndex {
   /// @return its place, or the size of the list
   std::size_t find(std::span<const StoredForce> forces, std::uint64_t id, std::size_t from);
 
+  /// Forces looked at since the last call.
+  std::int64_t take_visits() { return std::exchange(visits_, 0); }
+
  private:
   std::vector<std::pair<std::uint64_t, std::size_t>> sorted_;  // id and place
   bool is_sorted_ = false;
+  std::int64_t visits_ = 0;
 };
 
 /// Sets the seed of each block to the force that was stored for it. @param index of `of_last`

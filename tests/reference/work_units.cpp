@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   using namespace substep;
   return golden::for_every_case(argc, argv, [](golden::Case& c) {
     std::int64_t substeps = 0;
+    std::int64_t visits = 0;
     SolverWork sum;
     for (int i = 0; i < 60; ++i) {
       const FrameReport report = c.simulator.step();
@@ -18,8 +19,9 @@ int main(int argc, char** argv) {
       sum.factorisations += report.work.factorisations;
       sum.pivots += report.work.pivots;
       sum.flops += report.work.flops;
+      visits += report.visits;
     }
-    std::printf("%s %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 "\n", c.name.c_str(),
-                substeps, sum.row_updates, sum.factorisations, sum.pivots, sum.flops);
+    std::printf("%s %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 "\n", c.name.c_str(),
+                substeps, sum.row_updates, sum.factorisations, sum.pivots, sum.flops, visits);
   });
 }

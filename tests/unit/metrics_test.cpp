@@ -7,6 +7,7 @@
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
 #include "core/lab/experiment_run.hpp"
+#include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
@@ -102,6 +103,25 @@ TEST(Work, GaussSeidelVisitsEveryRowOnceAnIteration) {
   EXPECT_EQ(work.rows.grab, 0);
   EXPECT_EQ(work.row_updates, 7 * (work.rows.joint + work.rows.contact + work.rows.friction));
   EXPECT_EQ(work_of(scenes::swinging_box(), settings, 0.1).rows.joint % 130, 0);
+}
+
+// Twelve times the bricks are twelve times the visits: nothing looks for anything one by one.
+TEST(Work, VisitsAreProportionalToTheBodies) {
+  for (const Detection detection :
+       {Detection::kFrame, Detection::kSubstep, Detection::kContinuous}) {
+    SCOPED_TRACE(std::string(name_of(detection)));
+    const auto visits = [&](int bricks) {
+      scenes::WallOptions options;
+      options.courses = 3;
+      options.bricks = bricks;
+      Settings settings{.solver = SolverKind::kPgs, .mode = Mode::kConst, .n = 2};
+      settings.detection = detection;
+      return static_cast<double>(work_of(scenes::wall(options), settings, 0.2).visits);
+    };
+    const double few = visits(10);
+    EXPECT_GT(few, 10.0 * 30.0);
+    EXPECT_LT(visits(120), 1.5 * 12.0 * few);
+  }
 }
 
 TEST(Work, AGrabAddsItsOwnRows) {

@@ -24,7 +24,8 @@ struct Mover {
 
 std::optional<double> impact_of(const Mover& a, const Mover& b, double accuracy = 1e-9) {
   ContactPoints scratch;
-  return time_of_impact(a.travel(0), b.travel(1), kStep, 0.0, accuracy, scratch);
+  std::int64_t steps = 0;
+  return time_of_impact(a.travel(0), b.travel(1), kStep, 0.0, accuracy, scratch, steps);
 }
 
 TEST(TimeOfImpact, OfTwoSpheresIsTheClosedForm) {
@@ -127,7 +128,10 @@ TEST(TimeOfImpact, OfACornerThatApproachesSlowly) {
     box.w << 0.2, -slow - omega.cross(lowest).y(), 1.4, omega;
     const double until = kStep / 4.0;
     ContactPoints scratch;
-    const auto time = time_of_impact(floor.travel(0), box.travel(1), until, 0.0, 1e-7, scratch);
+    std::int64_t steps = 0;
+    const auto time =
+        time_of_impact(floor.travel(0), box.travel(1), until, 0.0, 1e-7, scratch, steps);
+    EXPECT_LT(steps, 30);
     const double least = least_gap(floor, box, time.value_or(until));
     if (time) {
       ++hits;
@@ -145,7 +149,9 @@ TEST(TimeOfImpact, FindsTheDepthOfAnOverlapOnTheWay) {
   ball.w[1] = -1.0;
   Mover plane{Plane{}};
   ContactPoints scratch;
-  const auto time = time_of_impact(ball.travel(0), plane.travel(1), kStep, -0.05, 1e-9, scratch);
+  std::int64_t steps = 0;
+  const auto time =
+      time_of_impact(ball.travel(0), plane.travel(1), kStep, -0.05, 1e-9, scratch, steps);
   ASSERT_TRUE(time);
   EXPECT_NEAR(*time, 0.05, 1e-8);
 }

@@ -17,8 +17,7 @@ struct SoundParts {
 /// Checks that the two sides of every joint coincide at the start, within the failure gap.
 void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& problems);
 
-/// Checks for redundant rows: their forces are not unique, and without compliance the result is
-/// NaN.
+/// Checks for redundant rows: without compliance their forces are not unique.
 void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems& problems);
 
 /// Checks that every effect the content requires is enabled: otherwise joints, constant forces and

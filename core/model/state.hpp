@@ -11,7 +11,7 @@ namespace substep {
 struct Scene;
 
 /// All variables of a running scene. A copy is a snapshot, from which the motion continues bit for
-/// bit; closed loops of exact joints, whose rows are redundant, to rounding error (solvers.md).
+/// bit.
 struct State : Carried {
   std::vector<Vec3> x;  // centre of mass, world [m]
   std::vector<Quat> q;  // q_WB, unit [-]

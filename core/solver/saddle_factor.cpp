@@ -12,10 +12,11 @@ namespace substep {
 namespace {
 
 // Exact rows that are redundant on their node's body, as in closed loops of exact joints, may be
-// independent in the whole system. They are softened by this fraction of J A^-1 J^T, which causes a
-// relative error of the same size, and rounding errors of the same size again. refine() removes
-// both.
+// independent in the whole system. Below this fraction of J A^-1 J^T a pivot is taken for zero.
 constexpr double kLeastPivot = 1e-8;
+// Then all rows are softened by this fraction of their mobility, which causes a relative error of
+// the same size, and rounding errors of 1e-16 over it. refine() removes both.
+constexpr double kFair = 1e-9;
 
 // Clears an even number of values in pairs; memset would be a call in WebAssembly.
 void set_zero(double* to, int n) {
@@ -138,41 +139,27 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
   if (node.folds || node.n_rows != node.counted_rows) count(node);
 }
 
-// A small pivot before larger ones causes large multipliers, amplified by a clamped pivot after it:
-// 1e4 and 1e-8 give 1e16 on later bodies, a total loss of precision. If a pivot is clamped, pivots
-// are therefore sorted from large to small, each relative to its minimum. Joint rows keep that
-// order; contact rows are gathered for each factorisation and keep theirs.
-void SaddleLdlt::hold_last(const Node& node, const auto& form) {
-  held_ = true;
-  if (!node.gathered) return;
-  const Factor f = at(node);
-  form();
-  order_by_pivots(f.S, f.S_inverse, node.n_rows, rows_.data() + node.first_row);
-  form();
-  factor_ldlt(f.S, node.n_rows, f.S_inverse);
+// The softness of a row for equal shares among redundant ones: the mean mobility of the rows of its
+// joint of the same unit, so that neither the units nor the axes of the scene matter.
+double SaddleLdlt::fair_softness(const Block& block, int row) const {
+  const bool moves = row < block.position_rows;
+  const int first = moves ? 0 : block.position_rows;
+  const int end = moves ? block.position_rows : block.rows;
+  double sum = 0.0;
+  for (int i = first; i < end; ++i) {
+    sum += mobility_on(block, i, true, inverse_mass_) + mobility_on(block, i, false, inverse_mass_);
+  }
+  return kFair * sum / (end - first);
 }
 
-void SaddleLdlt::order_by_pivots(double* S, double* least, int n, Row* rows) {
-  constexpr double kWorse = 1e-3;  // ratio of pivots below which a row is postponed
-  const auto at = [&](int i, int j) -> double& { return S[std::max(i, j) * n + std::min(i, j)]; };
-  for (int j = 0; j < n; ++j) {
-    int best = j;
-    for (int i = j + 1; i < n; ++i) {
-      if (at(i, i) * least[best] > at(best, best) * least[i]) best = i;
-    }
-    if (at(j, j) * least[best] < kWorse * at(best, best) * least[j]) {
-      for (int k = 0; k < n; ++k) {
-        if (k != j && k != best) std::swap(at(j, k), at(best, k));
-      }
-      std::swap(at(j, j), at(best, best));
-      std::swap(least[j], least[best]);
-      std::swap(rows[j], rows[best]);
-    }
-    const double per_d = inverse_of_pivot(at(j, j), least[j]);
-    for (int i = j + 1; i < n; ++i) {
-      const double l = at(i, j) * per_d;
-      for (int k = j + 1; k <= i; ++k) at(i, k) -= l * at(k, j);
-    }
+// Clamping a pivot alone would leave the force of redundant rows to the last one in the order. All
+// rows of the node are softened instead, so that they share it.
+void SaddleLdlt::soften(const Node& node, std::span<const Block> blocks) {
+  held_ = true;
+  const Factor f = at(node);
+  for (int i = 0; i < node.n_rows; ++i) {
+    const Row& row = rows_[node.first_row + index(i)];
+    f.S[i * node.n_rows + i] += fair_softness(blocks[index(row.attached->block)], row.row);
   }
 }
 
@@ -207,7 +194,12 @@ void SaddleLdlt::factor_leaf(Node& node, std::span<const Block> blocks, auto row
     }
   };
   form();
-  if (factor_ldlt(f.S, rows, f.S_inverse)) hold_last(node, form);
+  if (softened_) soften(node, blocks);
+  if (factor_ldlt(f.S, rows, f.S_inverse)) {
+    form();
+    soften(node, blocks);
+    factor_ldlt(f.S, rows, f.S_inverse);
+  }
   solve_lower(f.S, rows, n, f.Z);
 }
 
@@ -276,7 +268,12 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
     }
   };
   form();
-  if (factor_ldlt(f.S, rows, f.S_inverse)) hold_last(node, form);
+  if (softened_) soften(node, blocks);
+  if (factor_ldlt(f.S, rows, f.S_inverse)) {
+    form();
+    soften(node, blocks);
+    factor_ldlt(f.S, rows, f.S_inverse);
+  }
   solve_lower(f.S, rows, n, f.Z);
   add_gram(f.Z, f.S_inverse, rows, 1.0, n, values_.data() + node.update);
 }

@@ -47,6 +47,7 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   c_.reserve(blocks * kMaxRows);
   found_.reserve(blocks);
   u_begun_.reserve(bodies);
+  u_found_.reserve(bodies);
   u_earlier_.reserve(bodies);
 }
 
@@ -79,7 +80,7 @@ bool SaddleLdlt::begin(const System& system) {
   flops_ = 0;
   factorisations_ = 0;
   factored_ = false;
-  held_ = false;
+  held_ = softened_ = false;
   inverse_mass_ = system.inverse_mass;
   u_star_.resize(system.u.size());
   copy(system.u, u_star_);

@@ -54,10 +54,11 @@ class SaddleLdlt {
   /// articulated or folded joints.
   void find_impulses(std::span<Block> blocks);
 
-  /// True if a pivot was clamped since `begin`: then the solution is that of softer rows.
+  /// True if a pivot was clamped since `begin`: rows are redundant, and the solution is that of
+  /// softer ones.
   [[nodiscard]] bool held() const { return held_; }
-  /// Removes that softness by iterative refinement with the existing factor; all rows are free.
-  /// Computes all impulses and ends the system started by `begin`.
+  /// Removes the softness by iterative refinement, and gives redundant rows the impulses of least
+  /// norm; all rows are free. Computes all impulses and ends the system started by `begin`.
   void refine(const System& system);
 
   /// Floating-point operations since `begin`.
@@ -186,12 +187,9 @@ class SaddleLdlt {
   /// @param B, U of the parent, n wide; used if there are coupled bodies besides the parent
   void add_left(const Node& child, Square6& A, double* B, double* U, int n);
   void eliminate_rows(Node& node, std::span<const Block> blocks);
-  /// Refactors the rows of a node after a pivot was clamped. @param form computes S, Z and minimum
-  /// pivots
-  void hold_last(const Node& node, const auto& form);
-  /// @param S, least n rows, not yet factored; overwritten  @param rows in: as in S;
-  /// out: from large pivots to small ones
-  static void order_by_pivots(double* S, double* least, int n, Row* rows);
+  /// Softens all rows of a node whose S is formed, and not yet factored.
+  void soften(const Node& node, std::span<const Block> blocks);
+  [[nodiscard]] double fair_softness(const Block& block, int row) const;
 
   void set_momenta(std::span<const Block> blocks);
   [[nodiscard]] Vec6* of_body(int body);
@@ -204,6 +202,8 @@ class SaddleLdlt {
   void backward_rows(const Node& node, const Factor& f, auto rows, auto n, std::span<Block> blocks,
                      double* change);
 
+  /// Adds corrections to the solution of the softened rows.
+  void correct(const System& system);
   /// Sets u* to the velocity under the current impulses, and sets up the system for their
   /// correction. @return its largest |w| at zero correction [m/s, rad/s]
   double start_correction(const System& system);
@@ -223,7 +223,8 @@ class SaddleLdlt {
   std::vector<Row> rows_;
   std::vector<ArticulatedJoint> joints_;  // nodes point to them
   bool any_folded_ = false;
-  bool held_ = false;  // a pivot
+  bool held_ = false;      // a pivot
+  bool softened_ = false;  // all rows but those of articulated nodes
   std::vector<double> values_;
   std::int64_t flops_ = 0;
   int factorisations_ = 0;
@@ -239,12 +240,14 @@ class SaddleLdlt {
 
   // Of refine():
   struct RowValues {
-    double bias[kMaxRows];
+    double given[kMaxRows];    // bias of the system
+    double bias[kMaxRows];     // of the speeds to reach
     double impulse[kMaxRows];  // before the current correction
     double earlier[kMaxRows];  // before the previous correction
   };
   std::vector<RowValues> found_;  // per block
   std::vector<Vec6> u_begun_;     // u* of the system
+  std::vector<Vec6> u_found_;     // u+
   std::vector<Vec6> u_earlier_;   // u+ before the last correction
 };
 

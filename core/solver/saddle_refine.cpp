@@ -10,7 +10,7 @@ namespace substep {
 
 namespace {
 
-constexpr int kMostCorrections = 3;    // corrections
+constexpr int kMostCorrections = 12;   // corrections
 constexpr double kFalls = 0.5;         // required reduction of |w| per correction
 constexpr double kChange = 1e-2;       // largest relative change of velocities by a correction
 constexpr double kAttainable = 1e-15;  // relative to the velocities: attainable accuracy
@@ -51,20 +51,55 @@ double SaddleLdlt::start_correction(const System& system) {
   return largest;
 }
 
-// A clamped pivot makes its row a spring, w = J u+ + s x + bias = -e x with e = 1e-8 J Mt^-1 J^T,
-// and dividing by it costs the later bodies the same precision. The impulses are a starting point:
-// with x = x0 + d and u0 = u* + Mt^-1 J^T x0, the remaining d solves
+// Redundant rows have no unique impulses. All rows of loops become springs, w = J u+ + s x + bias =
+// -e x with e = 1e-9 of their mobility, and the impulses are a starting point: with x = x0 + d and
+// u0 = u* + Mt^-1 J^T x0, the remaining d solves
 //   J (u0 + Mt^-1 J^T d) + s d + (bias + s x0) = 0,
-// with the same factor. The error falls by the ratio of e to the row's effective J Mt^-1 J^T in the
-// whole system. With contradictory rows it does not fall, or the solution would change strongly;
-// then the softened solution is kept.
+// with the same factor. From zero impulses this proximal-point iteration converges to those of
+// least norm among the solutions (Rockafellar 1976), with e as weights: they are a smooth function
+// of the pose. The error falls by the ratio of e to the row's effective J Mt^-1 J^T in the whole
+// system, slowly only close to a singular pose. With contradictory rows it does not fall, or the
+// solution would change strongly; then the softened solution is kept.
 void SaddleLdlt::refine(const System& system) {
   const std::span<Block> blocks = system.blocks;
-  find_impulses(blocks);
+  softened_ = true;
+  for (Node& node : nodes_) node.dirty = node.kind != NodeKind::kArticulated;
+  factored_ = false;
+  found_.resize(blocks.size());
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    std::copy_n(blocks[k].bias, kMaxRows, found_[k].given);
+  }
   u_begun_.resize(u_star_.size());
   u_earlier_.resize(u_star_.size());
   copy(u_star_, u_begun_);
-  found_.resize(blocks.size());
+  solve(system);
+  correct(system);
+  // Redundant rows that disagree, if only by rounding, have been pulling at each other. Again, for
+  // the speeds that were found: these agree.
+  u_found_.resize(u_star_.size());
+  copy(system.u, u_found_);
+  copy(u_begun_, u_star_);
+  for (Block& block : blocks) {
+    double w[kMaxRows];
+    row_speeds(block, system.u, w);
+    for (int row = 0; row < block.rows; ++row) {
+      block.bias[row] = -(w[row] + block.softness[row] * block.impulse[row]);
+    }
+    flops_ += residual_flops(block);
+  }
+  read(blocks);
+  solve(system);
+  correct(system);
+  copy(u_found_, system.u);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    std::copy_n(found_[k].given, kMaxRows, blocks[k].bias);
+  }
+}
+
+void SaddleLdlt::correct(const System& system) {
+  const std::span<Block> blocks = system.blocks;
+  find_impulses(blocks);
+  copy(u_star_, u_begun_);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::copy_n(blocks[k].bias, kMaxRows, found_[k].bias);
   }

@@ -12,6 +12,7 @@
 
 #include "core/solver/bpp.hpp"
 #include "scenes/generator/exam.hpp"
+#include "tests/support/placed.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep {
@@ -184,6 +185,68 @@ TEST(Loops, JointsStayClosed) {
     double gap = 0.0;
     for (int i = 0; i < 600; ++i) gap = std::max(gap, simulator.step().joint_gap);
     EXPECT_LT(gap, 1e-11) << exam.name;
+  }
+}
+
+/// Largest joint forces and torques of a run, and those out of a plane.
+struct Largest {
+  double force = 0.0;            // [N]
+  double torque = 0.0;           // [N m]
+  double force_across = 0.0;     // along the normal
+  double torque_in_plane = 0.0;  // about axes in the plane
+  int substeps = 0;
+};
+
+Largest largest_forces(const Scene& scene, const Vec3& normal) {
+  Simulator simulator = test::simulator_of(scene, substep::Settings{});
+  Largest most;
+  for (int i = 0; i < 120; ++i) {
+    most.substeps += simulator.step().n_substeps;
+    if (i == 0) continue;  // it may begin without a known stiffness
+    for (const JointForce& joint : simulator.constraint_forces().joints) {
+      most.force = std::max(most.force, joint.force.norm());
+      most.torque = std::max(most.torque, joint.torque.norm());
+      most.force_across = std::max(most.force_across, std::abs(joint.force.dot(normal)));
+      most.torque_in_plane =
+          std::max(most.torque_in_plane, (joint.torque - joint.torque.dot(normal) * normal).norm());
+    }
+  }
+  return most;
+}
+
+// Forces that act on nothing are zero, in any axes.
+TEST(Loops, RedundantRowsOfAPlanarLoopPressOnNothing) {
+  const Largest planar = largest_forces(swing(), Vec3::UnitZ());
+  const Quat turn = Quat{0.3, -0.5, 0.7, 0.4}.normalized();
+  const Largest turned =
+      largest_forces(test::transformed(swing(), turn, Vec3::Zero()), turn * Vec3::UnitZ());
+  for (const Largest& most : {planar, turned}) {
+    EXPECT_GT(most.force, 1000.0);
+    EXPECT_LT(most.force_across, 0.01 * most.force);
+    EXPECT_LT(most.torque_in_plane, 0.01 * most.force);
+  }
+  EXPECT_EQ(planar.substeps, turned.substeps);
+  EXPECT_NEAR(planar.force, turned.force, 1e-6 * planar.force);
+}
+
+// One redundant row alone took forces that grew with N.
+TEST(Loops, ForcesOfBricardsMechanismConverge) {
+  const ExamCase exam = exact(scenes::exam_bricard());
+  double last = 0.0;
+  for (const int n : {8, 16, 32}) {
+    Simulator simulator = test::simulator_of(exam.scene, stormer(exam.scene, n));
+    double most = 0.0;
+    for (int i = 0; i < 500; ++i) {
+      simulator.step();
+      for (const JointForce& joint : simulator.constraint_forces().joints) {
+        most = std::max({most, joint.force.norm(), joint.torque.norm()});
+      }
+    }
+    EXPECT_LT(most, 100.0);
+    if (last > 0.0) {
+      EXPECT_NEAR(most, last, 0.02 * last);
+    }
+    last = most;
   }
 }
 

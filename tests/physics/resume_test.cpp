@@ -60,7 +60,6 @@ void expect_same_motion(const State& a, const State& b) {
 // starts and the kicks of leapfrog.
 TEST(Resume, FromASceneFileIsBitIdentical) {
   for (const Scene& scene : scenes::shipped()) {
-    if (scene.name == "crank_rocker") continue;  // Resume.OfARedundantLoopAgreesToRounding
     const auto shared = std::make_shared<const Scene>(scene);
     const bool small = scene.bodies.size() < 40;
     for (const Mode mode : small ? std::vector{Mode::kConst, Mode::kAdaptive, Mode::kStiffness}
@@ -99,24 +98,6 @@ TEST(Resume, FromASceneFileIsBitIdentical) {
           }
         }
       }
-    }
-  }
-}
-
-// The factor keeps the order of redundant rows from earlier poses (saddle_factor.cpp), and no file
-// holds it. Which of these rows carries the force is then another choice of equal motions.
-TEST(Resume, OfARedundantLoopAgreesToRounding) {
-  const auto shared = std::make_shared<const Scene>(scenes::crank_rocker());
-  Simulator whole(shared);
-  for (int i = 0; i < 30; ++i) whole.step();
-  const auto saved = through_a_file(whole);
-  ASSERT_NE(saved, nullptr);
-  Simulator rest(saved);
-  expect_same_motion(whole.state(), rest.state());
-  for (int i = 0; i < 15; ++i) {
-    EXPECT_EQ(whole.step().n_substeps, rest.step().n_substeps) << i;
-    for (std::size_t body = 0; body < 3; ++body) {
-      EXPECT_LT((whole.state().x[body] - rest.state().x[body]).norm(), 1e-9) << i;
     }
   }
 }

@@ -99,14 +99,14 @@ struct Simulator::Impl {
   bool propagate_impacts(Substep& sub, FrameReport& report);
   bool solve_impacts(Substep& sub, std::span<const InverseMass> masses, FrameReport& report);
   bool lower_restitution(Substep& sub, std::span<const InverseMass> masses, FrameReport& report);
-  /// Work of all rows but the grab's.
+  /// Work of contacts.
   struct RowWork {
     double added = 0.0;      // to the kinetic energy [J]
     double exchanged = 0.0;  // sum of magnitudes [J]
     [[nodiscard]] bool adds() const { return added > 1e-9 * exchanged; }
   };
-  /// @param u, u_plus before and after the impulses  @param of_impacts with the velocities that
-  /// forces give until they happen
+  /// @param u, u_plus before and after the impulses  @param of_impacts with the velocities
+  /// that forces give until they happen
   [[nodiscard]] RowWork work_of_rows(const Substep& sub, std::span<const Vec6> u,
                                      std::span<const Vec6> u_plus, bool of_impacts) const;
   bool rebounds_add_energy(const Substep& sub);  // in the solve after them
@@ -121,6 +121,7 @@ struct Simulator::Impl {
   bool solve_softly(Substep& sub, FrameReport& report);
   bool solve_afresh(Substep& sub, FrameReport& report);
   SweptContacts::Found sweep(Substep& sub);
+  void add_reactions(const Substep& sub, std::size_t solved);  // to the gain; rows before the sweep
   bool too_many_swept() const;
   bool find_shift(Substep& sub, FrameReport& report);
   /// Of the last sub-step's rows that are not springs [J].
@@ -232,6 +233,7 @@ struct Simulator::Impl {
   std::vector<Vec6> u_unforced;          // before the forces and impacts
   std::vector<Vec6> u_rebounding;        // after impacts that add no energy, and forces
   bool separates = true;                 // what was struck
+  double exchanged = 0.0;                // by impacts of the last solve [J]
   int lowered = 0;                       // impacts of the last solve with a lower e
   double lowered_to = 1.0;               // their smallest share of e [-]
   std::vector<Vec6> gain;                // by the forces of the sub-step

@@ -170,7 +170,7 @@ void Simulator::Impl::seed(const Substep& sub) {
 void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
   if (sub.probing) return set_probe_bias(sub.rows, sub.dt);
   set_drift_bias(sub.rows, drift_law(sub.settings), sub.settings.drift_tau, sub.dt);
-  if (sweeps_contacts(sub)) set_swept_bias(sub.rows, sub.gain, sub.dt);
+  if (sweeps_contacts(sub)) set_swept_bias(sub.rows, sub.gain, sub.shift, sub.dt);
   set_springs(sub, state);
   if (sub.settings.drift_order == 2) add_curvature_bias(sub.rows, sub.u_start, sub.dt);
   if (restitution && separates) restitution->apply(sub, sub.u_before, sub.rows);
@@ -236,7 +236,10 @@ bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report
   const bool full = entry_of(settings.mode).full_stiffness;
   const bool known = !state.k.empty() && (!full || !state.K_resisting.empty());
   // The forces of an impact do not last.
-  if (sweeps_contacts(sub) && !sub.smooth && known) return true;
+  if (sweeps_contacts(sub) && !sub.smooth && known) {
+    report.stages.stiffness = true;  // the last one is kept
+    return true;
+  }
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
   for (Block& block : sub.rows) find_lambda(sub, block, block.lambda);
   const ContactTerms terms = full ? ContactTerms::kNormal

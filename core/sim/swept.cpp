@@ -74,6 +74,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
     if (!solve_softly(sub, report)) return false;
     solved = blocks.size();
     found = sweep(sub);
+    if (solves == 0 && found == SweptContacts::Found::kContacts) add_reactions(sub, solved);
     if (too_many_swept()) {
       report.status = StepStatus::kTooManyContacts;
       report.overrun.budget = budget.contacts;
@@ -103,6 +104,21 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
   return true;
 }
 
+// What joints and resting contacts hold does not fall with the forces until it is struck: the gain
+// is that of the motion without the contacts that it closes, unless that is an impact itself.
+void Simulator::Impl::add_reactions(const Substep& sub, std::size_t solved) {
+  if (!sub.struck.empty()) return;
+  const std::span<const Block> rows = sub.rows.first(solved - first_block);
+  const bool hits = std::any_of(rows.begin(), rows.end(), [&](const Block& block) {
+    return block.is_contact() && block.impulse[0] > 0.0 &&
+           block.phi[0] > sub.dt * gained_speed(block, gain);
+  });
+  if (hits) return;
+  for (const int body : sub.part->moving) {
+    gain[index(body)] = state.u[index(body)] - u_unforced[index(body)];
+  }
+}
+
 // Solves with rigid contacts; if the solver finds no solution, as can be where many touch at once,
 // with softer ones: what BPP then falls back to could add energy.
 bool Simulator::Impl::solve_softly(Substep& sub, FrameReport& report) {
@@ -129,6 +145,7 @@ bool Simulator::Impl::solve_afresh(Substep& sub, FrameReport& report) {
   sub.integrator->begin_solve(sub);
   shift.assign(state.u.size(), Vec6::Zero());
   sub.shift = shift;
+  exchanged = 0.0;
   lowered = 0;
   lowered_to = 1.0;
   return solve_rows(sub, report);

@@ -107,13 +107,15 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
 }
 
 SolveReport Bpp::find_velocities_again(const System& system, const Settings& settings) {
-  if (any_contact_ || ldlt_.held() || settings.refinements > 0) {
-    return find_velocities(system, settings);
-  }
+  if (any_contact_ || settings.refinements > 0) return find_velocities(system, settings);
   SolveReport report;
   const std::int64_t before = ldlt_.flops();
-  ldlt_.read(system.blocks);
-  ldlt_.solve(system);
+  if (ldlt_.held()) {
+    ldlt_.refine(system);
+  } else {
+    ldlt_.read(system.blocks);
+    ldlt_.solve(system);
+  }
   report.flops = ldlt_.flops() - before;
   return report;
 }

@@ -152,10 +152,9 @@ double SaddleLdlt::fair_softness(const Block& block, int row) const {
   return kFair * sum / (end - first);
 }
 
-// Clamping a pivot alone would leave the force of redundant rows to the last one in the order. All
-// rows of the node are softened instead, so that they share it.
+// Clamping a pivot alone leaves the force of redundant rows to the last one in the order. All rows
+// of a node with joints alone are softened instead, so that they share it.
 void SaddleLdlt::soften(const Node& node, std::span<const Block> blocks) {
-  held_ = true;
   const Factor f = at(node);
   for (int i = 0; i < node.n_rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
@@ -196,9 +195,12 @@ void SaddleLdlt::factor_leaf(Node& node, std::span<const Block> blocks, auto row
   form();
   if (softened_) soften(node, blocks);
   if (factor_ldlt(f.S, rows, f.S_inverse)) {
-    form();
-    soften(node, blocks);
-    factor_ldlt(f.S, rows, f.S_inverse);
+    held_ = true;
+    if (!node.has_contacts) {
+      form();
+      soften(node, blocks);
+      factor_ldlt(f.S, rows, f.S_inverse);
+    }
   }
   solve_lower(f.S, rows, n, f.Z);
 }
@@ -270,9 +272,12 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
   form();
   if (softened_) soften(node, blocks);
   if (factor_ldlt(f.S, rows, f.S_inverse)) {
-    form();
-    soften(node, blocks);
-    factor_ldlt(f.S, rows, f.S_inverse);
+    held_ = true;
+    if (!node.has_contacts) {
+      form();
+      soften(node, blocks);
+      factor_ldlt(f.S, rows, f.S_inverse);
+    }
   }
   solve_lower(f.S, rows, n, f.Z);
   add_gram(f.Z, f.S_inverse, rows, 1.0, n, values_.data() + node.update);

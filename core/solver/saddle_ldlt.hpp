@@ -58,7 +58,7 @@ class SaddleLdlt {
   /// softer ones.
   [[nodiscard]] bool held() const { return held_; }
   /// Removes the softness by iterative refinement, and gives redundant rows the impulses of least
-  /// norm; all rows are free. Computes all impulses and ends the system started by `begin`.
+  /// norm; all rows are free. Computes all impulses. May be called again with another bias.
   void refine(const System& system);
 
   /// Floating-point operations since `begin`.

@@ -62,9 +62,14 @@ double SaddleLdlt::start_correction(const System& system) {
 // solution would change strongly; then the softened solution is kept.
 void SaddleLdlt::refine(const System& system) {
   const std::span<Block> blocks = system.blocks;
-  softened_ = true;
-  for (Node& node : nodes_) node.dirty = node.kind != NodeKind::kArticulated;
-  factored_ = false;
+  if (softened_) {  // another bias for the same system
+    copy(system.u, u_star_);
+    read(blocks);
+  } else {
+    softened_ = true;
+    factored_ = false;
+    for (Node& node : nodes_) node.dirty = node.kind != NodeKind::kArticulated;
+  }
   found_.resize(blocks.size());
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::copy_n(blocks[k].bias, kMaxRows, found_[k].given);

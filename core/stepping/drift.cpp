@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constraints/contact.hpp"
 #include "core/constraints/joint_rows.hpp"
 #include "core/stepping/compliance.hpp"
 
@@ -79,13 +80,15 @@ double gained_speed(const Block& contact, std::span<const Vec6> gain) {
   return speed;
 }
 
-void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain, double dt) {
+void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
+                    std::span<const Vec6> shift, double dt) {
   constexpr double kYields = 0.1;  // at most this part of the speed by the forces
   constexpr double kRigid = 1e-4;  // but the softness not below this part of what it was
   constexpr double kKept = 0.5;  // of the force: less than all, so that forces in a jam are bounded
   for (Block& block : blocks) {
     if (!block.is_contact() || is_soft_contact(block)) continue;
-    block.bias[0] = std::max(block.phi[0], 0.0) / dt;
+    // The motion is that of u + shift: a body that was struck moves for the rest of the sub-step.
+    block.bias[0] = std::max(std::max(block.phi[0], 0.0) / dt + normal_speed(block, shift), 0.0);
     if (!block.was_closed) continue;
     const double yields = block.softness[0] * block.impulse[0];
     const double share = std::clamp(kYields * gained_speed(block, gain) / yields, kRigid, 1.0);

@@ -42,8 +42,9 @@ double gained_speed(const Block& contact, std::span<const Vec6> gain);
 /// For contacts that are found along the motion: an overlap is not corrected by velocities, and the
 /// softness, reduced under a load, acts on the change of the force alone. Bodies would sink with
 /// the softness times the force. The impulses are those of the last sub-step.
-/// @param gain as above  @param dt [s]
-void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain, double dt);
+/// @param gain as above  @param shift of the motion, Substep::shift  @param dt [s]
+void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
+                    std::span<const Vec6> shift, double dt);
 
 /// For the probe: no drift correction; open contacts stay open. @param dt [s]
 void set_probe_bias(std::span<Block> blocks, double dt);

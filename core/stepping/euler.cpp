@@ -3,6 +3,7 @@
 #include "core/constraints/joint_rows.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "core/math/gyroscopic.hpp"
+#include "core/stepping/drift.hpp"
 #include "core/stepping/integrate.hpp"
 
 namespace substep {
@@ -101,7 +102,8 @@ void Euler::find_hit(const Substep& sub) {
     const bool acts = !block.is_contact() || block.impulse[0] > 0.0 ||
                       (!sub.struck.empty() && sub.struck[i] != 0 && sub.gain.empty());
     if (!acts) continue;
-    const bool arrives = !sub.gain.empty() && block.is_contact() && block.phi[0] > 0.0;
+    const bool arrives = !sub.gain.empty() && block.is_contact() &&
+                         block.phi[0] > sub.dt * gained_speed(block, sub.gain);
     for (const int body : {block.a, block.b}) {
       if (body < 0) continue;
       std::uint8_t& hit = hit_[index(body)];

@@ -15,6 +15,13 @@ constexpr double kOpen = 1e30;
 // Impacts that are closer in time are one, of the sub-step.
 constexpr double kSimultaneous = 1e-3;
 
+// The velocity u of a joint is half a sub-step old: an impact changes it along the joint.
+void keep_speeds(Block& joint, std::span<const Vec6> u) {
+  double speed[kMaxRows];
+  row_speeds(joint, u, speed);
+  for (int row = 0; row < joint.rows; ++row) joint.bias[row] = -speed[row];
+}
+
 }  // namespace
 
 double RestitutionStage::restitution_of(const Block& contact) const {
@@ -115,7 +122,10 @@ bool RestitutionStage::set_impacts(const Substep& sub, std::span<const Vec6> u, 
     Impact& hit = hits_[i];
     std::fill(std::begin(block.bias), std::end(block.bias), 0.0);
     std::fill(std::begin(block.impulse), std::end(block.impulse), 0.0);
-    if (!block.is_contact()) continue;
+    if (!block.is_contact()) {
+      if (!sub.gain.empty()) keep_speeds(block, u);
+      continue;
+    }
     std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
     if (!(hit.speed > 0.0) || hit.time > first + kSimultaneous * sub.dt) {
       block.bias[0] = kOpen;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "core/lab/presets.hpp"
 #include "core/model/names.hpp"
@@ -385,6 +387,77 @@ TEST(SweptContacts, RandomPilesGainNoEnergy) {
     if (rise_of(scene, Settings{}, 4.0) > 0.01) ++gains;
   }
   EXPECT_GT(gains, 20);
+}
+
+// The struck ball moves for the rest of the sub-step only, and does not reach the next one in it.
+TEST(SweptContacts, BallsWithSmallGapsPassAnImpactOn) {
+  for (const double gap : {0.3e-3, 1e-3, 3e-3}) {
+    SceneBuilder builder("gaps");
+    for (int i = 0; i < 3; ++i) {
+      const double before = i == 0 ? 0.3 : 0.0;  // more than a frame of flight
+      const int ball = builder.add_body(kBall, 1.0, {i * (2.0 * kHalf + gap) - before, 0.0, 0.0});
+      builder.body(ball).restitution = 1.0;
+    }
+    builder.body(0).velocity = {1.24, 0.0, 0.0};
+    builder.scene().gravity = Vec3::Zero();
+    const Scene scene = *builder.build();
+    for (const int n : {0, 1, 4}) {  // 0: adaptive
+      SCOPED_TRACE(std::to_string(gap) + " n " + std::to_string(n));
+      const Outcome outcome =
+          run(scene, n == 0 ? Settings(find_preset("steady")->settings) : steady_at(n), 1.0);
+      const double speeds[] = {0.0, 0.0, 1.24};
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(outcome.end.u_synchronised[i].x(), speeds[i], 1e-4) << i;
+      }
+    }
+  }
+}
+
+// A plate on a slide, or on the floor, does not fall with the ball.
+TEST(SweptContacts, ABallReboundsFromWhatIsHeld) {
+  for (const bool slides : {true, false}) {
+    SCOPED_TRACE(slides);
+    constexpr double kHeight = 0.4;
+    SceneBuilder builder("plate");
+    if (!slides) builder.add_fixed(Plane{}, {0.0, -0.1, 0.0});
+    const int plate =
+        builder.add_body(Box{{0.5, 0.05, 0.5}}, slides ? 5.0 : 1000.0, {0.0, -0.05, 0.0});
+    if (slides) builder.add_prismatic(plate, kWorld, {0.0, -0.05, 0.0}, Vec3::UnitX());
+    const int ball = builder.add_body(kBall, 1.0, {0.0, kHeight + kHalf, 0.0});
+    builder.body(ball).restitution = 1.0;
+    double last = 0.0;
+    double before = 0.0;
+    std::vector<double> apexes;
+    const EveryFrame every = [&](const Simulator& simulator, const FrameReport&) {
+      const double height = simulator.state().x[index(ball)].y() - kHalf;
+      if (last > before && last >= height) apexes.push_back(last);
+      before = std::exchange(last, height);
+    };
+    run(*builder.build(), find_preset("steady")->settings, 2.5, every, false);
+    ASSERT_GE(apexes.size(), 3U);
+    for (const double apex : apexes) EXPECT_NEAR(apex, kHeight, 0.05 * kHeight);
+  }
+}
+
+// A domino that leans on another reported the speed of half a sub-step of fall.
+TEST(SweptContacts, RestingBodiesReportNoFall) {
+  for (const double frame : {1.0 / 30.0, 1.0 / 60.0}) {
+    SceneBuilder builder("dominoes");
+    builder.body(builder.add_fixed(Plane{}, Vec3::Zero())).friction = 0.4;
+    const Vec3 half{0.005, 0.05, 0.025};
+    for (int i = 0; i < 6; ++i) {
+      const int domino = builder.add_body(Box{half}, 0.1, {0.03 * i, half.y(), 0.0});
+      Body& body = builder.body(domino);
+      body.friction = 0.4;
+      if (i > 0) continue;
+      constexpr double kLean = 0.12;
+      body.orientation = Quat{Eigen::AngleAxisd(-kLean, Vec3::UnitZ())};
+      body.position = Vec3{half.x(), 0.0, 0.0} + body.orientation * Vec3{-half.x(), half.y(), 0.0};
+    }
+    builder.scene().frame = frame;
+    EXPECT_EQ(run(*builder.build(), find_preset("steady")->settings, 2.0).verdict, "holds")
+        << frame;
+  }
 }
 
 /// A box of unequal moments that tumbles fast onto a floor, or two that hit each other in space.

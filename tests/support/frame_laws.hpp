@@ -87,10 +87,10 @@ inline std::string broken_law(const Scene& scene, const Settings& settings, cons
   const SolverWork& work = report.work;
   // Islands take separate sub-steps; islands with the same number are stepped together.
   const std::int64_t substeps = std::int64_t{report.n_substeps} * std::max(1, report.islands);
-  // Contacts found along the motion: at most 8 solves, each with three softnesses, and 4 for
-  // shifts.
+  // Contacts found along the motion: at most 8 solves, each with three softnesses, and once more if
+  // rebounds add energy, and 4 for shifts.
   const bool sweeps = settings.detection == Detection::kContinuous;
-  const std::int64_t most_solves = sweeps ? 8 * 3 + 4 : 1;
+  const std::int64_t most_solves = sweeps ? 8 * 3 * 2 + 4 : 1;
   if (work.solves - work.impacts > most_solves * substeps + 1) {
     return "solves of a sub-step are bounded";
   }

@@ -19,7 +19,7 @@ const least = 1e-9; // smaller distances are rounding, and equal [m]
 const goal = 1.3; // steady over the best constant
 const finest = 8192; // sub-steps a frame of a reference
 const mostWork = 2.2e11; // of one reference [operations]
-const leastShare = 0.5; // of the time of the sweep that a reference must cover
+const leastShare = 0.25; // of the time of the sweep that a reference must cover
 const rounds = 3; // of timing
 const short = 30; // runs that are timed more often [ms]
 
@@ -106,11 +106,10 @@ function byFinest(scene) {
     const uncertainty = apart(fine.path, coarse.path);
     const error = apart(fine.path, steady.path);
     const sure = error.map((e, i) => certain * uncertainty[i] <= Math.max(e, certain * least));
-    const doubt = sure.indexOf(false);
+    const frames = sure.lastIndexOf(true) + 1;
     // Stiff springs are damped until a sub-step resolves them: few sub-steps can agree by accident.
-    const enough = n >= 512 && doubt < 0;
+    const enough = n >= 512 && frames === sure.length;
     if (!enough && 2 * n <= finest && 2 * fine.flops <= mostWork) continue;
-    const frames = doubt < 0 ? sure.length : doubt;
     const path = fine.path.slice(0, frames);
     const seconds = Math.round(frames * scene.frame * 1e6) / 1e6;
     return {
@@ -153,16 +152,19 @@ async function best(reference, error, most) {
   }
   if (n > most) return { tried };
   // Luck: an N that is good, among larger ones that are not.
+  const larger = Array.from({ length: Math.max(3, n >> 1) }, (_, i) => n + 1 + i);
+  for (let m = 2 * n; m <= 128; m *= 2) larger.push(m);
   let lasting = n;
-  for (let m = n + 1; m <= Math.min(most, Math.max(n + 3, Math.ceil(1.5 * n))); ++m) {
-    if (!(await good(m))) lasting = m + 1;
+  for (const m of larger) {
+    if (m <= most && !(await good(m))) lasting = m + 1;
   }
   return { n, lasting, tried };
 }
 
 async function measure(scene) {
-  const certainEnough = scene.source.startsWith("exact") || scene.uncertainty < 0.01;
-  let reference = certainEnough ? byProgram(scene) : byFinest(scene);
+  // Computing a reference that cannot be certain enough would be in vain.
+  const hopeless = scene.uncertainty > 0.01; // [m]
+  let reference = hopeless ? byFinest(scene) : byProgram(scene);
   let steady = await reference.run(presets.steady);
   if (certain * reference.uncertainty > Math.max(steady.error, certain * least)) {
     reference.close();
@@ -206,7 +208,7 @@ function remarks({ scene, reference, found, paper, steady, constant: by }) {
   if (!paper.holds) words.push(`paper ${paper.verdict}`);
   if (!steady.holds) words.push(`steady ${steady.verdict}`);
   if (!by) words.push(`no constant N up to ${Math.max(...found.tried.keys())} is as good`);
-  else if (found.lasting > found.n) words.push(`luck: only from ${found.lasting} on is every N as good`);
+  else if (found.lasting > found.n) words.push(`luck: ${found.lasting - 1} is worse`);
   if (steady.error <= least) words.push("every N follows this path");
   return words;
 }

@@ -30,7 +30,7 @@ function run(scene, flags, duration = seconds[scene]) {
     time: [0, ...frames.map((frame) => frame.time)], change, n: frames.map((frame) => frame.substeps),
     end: change.at(-1), low: Math.min(...change), high: Math.max(...change),
     kinetic: Math.max(...frames.map((frame) => frame.kinetic)),
-    substeps: work.substeps, discarded: frames.reduce((sum, frame) => sum + frame.discarded, 0),
+    substeps: work.substeps, // those of discarded attempts too
     again: frames.filter((frame) => frame.discarded > 0).length,
     flops: work.flops, factorisations: work.factorisations, solves: work.solves,
     place: [frames.at(-1).x, frames.at(-1).y],
@@ -80,7 +80,7 @@ function problem() {
     for (const [words, flags] of [...alphas.map((alpha) => [`paper, alpha ${alpha}`, paper(alpha)]),
       ["steady, alpha 0.1", steady(0.1)], ["steady, alpha 0.025", steady(0.025)]]) {
       const r = run(scene, flags);
-      rows.push([`\`${scene}\``, words, signed(r.end), range(r), thousands(r.substeps + r.discarded),
+      rows.push([`\`${scene}\``, words, signed(r.end), range(r), thousands(r.substeps),
         thousands(r.flops / 1e6)]);
     }
   }
@@ -146,7 +146,7 @@ function causes() {
         const cell = ["crank_rocker", "thrown_rope"].map((scene) =>
           run(scene, `--preset steady --drift ${drift} --hold ${hold} --${redo}`));
         const words = [drift, String(hold), redo === "redo" ? "on" : "off"];
-        rows.push([...words, ...cell.flatMap((r) => [range(r), thousands(r.substeps + r.discarded)])]);
+        rows.push([...words, ...cell.flatMap((r) => [range(r), thousands(r.substeps)])]);
         all.push({ words, cell });
       }
     }
@@ -194,7 +194,7 @@ function order() {
     [`0.1${i === 0 ? "" : `/${4 ** i}`}`, ...kinds.flatMap(([, preset], k) => {
       const r = run("crank_rocker", `--preset ${preset} --alpha ${alpha} --n-max 10000`, 1);
       errors[k].push([alpha, off(r)]);
-      return [digits(1000 * off(r)), thousands(r.substeps + r.discarded)];
+      return [digits(1000 * off(r)), thousands(r.substeps)];
     })]));
   console.log(`The reference of 8,000 sub-steps a frame differs from that of 4,000 by ${off(reference).toExponential(1)} m.`);
 
@@ -401,7 +401,7 @@ function tried() {
   table("Hold", ["`hold`", "`crank_rocker` [J]", "sub-steps", "`thrown_rope` [J]", "sub-steps"], [1, 6, 12, 20, 60, 120].map((hold) =>
     [String(hold), ...["crank_rocker", "thrown_rope"].flatMap((scene) => {
       const r = run(scene, `--preset steady --hold ${hold}`);
-      return [range(r), thousands(r.substeps + r.discarded)];
+      return [range(r), thousands(r.substeps)];
     })]));
 }
 

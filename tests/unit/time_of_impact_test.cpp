@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/random.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -109,13 +110,10 @@ TEST(TimeOfImpact, OfACornerThatApproachesSlowly) {
   int hits = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    auto number = [&, k = 0U]() mutable {
-      ++k;
-      const double s = 43758.5453 * std::sin(12.9898 * seed + 78.233 * k);
-      return 2.0 * (s - std::floor(s)) - 1.0;
-    };
+    substep::Random random(seed);
+    const auto number = [&random] { return random.next(); };
     Mover box{shape};
-    box.R = Quat(number(), number(), number(), number()).normalized().toRotationMatrix();
+    box.R = Quat{number(), number(), number(), number()}.normalized().toRotationMatrix();
     const Vec3 omega{8.0 * number(), 8.0 * number(), 8.0 * number()};
     Vec3 lowest = Vec3::Zero();
     for (unsigned i = 0; i < 8; ++i) {

@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
       sum.flops += report.work.flops;
       visits += report.visits;
     }
-    std::printf("%s %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 "\n", c.name.c_str(),
-                substeps, sum.row_updates, sum.factorisations, sum.pivots, sum.flops, visits);
+    std::printf("%s %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 "\n",
+                c.name.c_str(), substeps, sum.row_updates, sum.factorisations, sum.pivots,
+                sum.flops, visits);
   });
 }

@@ -18,9 +18,10 @@ Solver& Simulator::Impl::impact_solver() {
 
 // Newton's restitution law uses speeds before the impact. It cannot propagate an impact through
 // touching bodies: a ball striking a row of balls would carry the whole row along and lose most of
-// its energy. Impacts are therefore resolved in passes within the sub-step, all pending ones
-// simultaneously and without forces, until none is left. This conserves energy for e = 1 and
-// preserves symmetry (Smith et al., Reflections on simultaneous impact, 2012).
+// its energy. Impacts are therefore resolved in passes within the sub-step, without forces, until
+// none is left: all pending ones simultaneously, or the first ones where their times are known.
+// This conserves energy for e = 1 and preserves symmetry (Smith et al., Reflections on simultaneous
+// impact, 2012).
 bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   if (!restitution || sub.probing) return true;
   const bool sweeps = sweeps_contacts(sub);
@@ -82,10 +83,11 @@ bool Simulator::Impl::solve_impacts(Substep& sub, std::span<const InverseMass> m
 }
 
 // impulse . (w + w+)/2.
-Simulator::Impl::RowWork Simulator::Impl::work_of_rows(const Substep& sub, std::span<const Vec6> u,
-                                                       std::span<const Vec6> u_plus,
-                                                       bool of_impacts) const {
-  RowWork work;
+Simulator::Impl::ContactWork Simulator::Impl::work_of_contacts(const Substep& sub,
+                                                               std::span<const Vec6> u,
+                                                               std::span<const Vec6> u_plus,
+                                                               bool of_impacts) const {
+  ContactWork work;
   for (std::size_t i = 0; i < sub.rows.size(); ++i) {
     const Block& block = sub.rows[i];
     if (!block.is_contact()) continue;  // joints that hold do no work
@@ -119,9 +121,9 @@ bool Simulator::Impl::lower_restitution(Substep& sub, std::span<const InverseMas
   constexpr double kClose = 1e-4;
   const auto work = [&] {
     impact_solver().find_impulses(sub.rows);
-    return work_of_rows(sub, u_star, sub.u_before, true);
+    return work_of_contacts(sub, u_star, sub.u_before, true);
   };
-  const RowWork full = work();
+  const ContactWork full = work();
   exchanged += full.exchanged;
   if (!full.adds()) return true;
   double high = 1.0;
@@ -158,7 +160,7 @@ bool Simulator::Impl::rebounds_add_energy(const Substep& sub) {
   constexpr double kError = 0.005;  // of the energy of the impacts
   if (sub.struck.empty()) return false;
   sub.solver->find_impulses(sub.rows);
-  return work_of_rows(sub, u_rebounding, state.u, false).added > kError * exchanged;
+  return work_of_contacts(sub, u_rebounding, state.u, false).added > kError * exchanged;
 }
 
 }  // namespace substep

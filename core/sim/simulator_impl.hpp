@@ -99,16 +99,15 @@ struct Simulator::Impl {
   bool propagate_impacts(Substep& sub, FrameReport& report);
   bool solve_impacts(Substep& sub, std::span<const InverseMass> masses, FrameReport& report);
   bool lower_restitution(Substep& sub, std::span<const InverseMass> masses, FrameReport& report);
-  /// Work of contacts.
-  struct RowWork {
+  struct ContactWork {
     double added = 0.0;      // to the kinetic energy [J]
     double exchanged = 0.0;  // sum of magnitudes [J]
     [[nodiscard]] bool adds() const { return added > 1e-9 * exchanged; }
   };
-  /// @param u, u_plus before and after the impulses  @param of_impacts with the velocities
-  /// that forces give until they happen
-  [[nodiscard]] RowWork work_of_rows(const Substep& sub, std::span<const Vec6> u,
-                                     std::span<const Vec6> u_plus, bool of_impacts) const;
+  /// Of the impulses of all contacts. @param u, u_plus before and after them  @param of_impacts
+  /// with the velocities that forces give until they happen
+  [[nodiscard]] ContactWork work_of_contacts(const Substep& sub, std::span<const Vec6> u,
+                                             std::span<const Vec6> u_plus, bool of_impacts) const;
   bool rebounds_add_energy(const Substep& sub);  // in the solve after them
   void lower_to(double share) {
     ++lowered;

@@ -152,14 +152,27 @@ double SaddleLdlt::fair_softness(const Block& block, int row) const {
   return kFair * sum / (end - first);
 }
 
-// Clamping a pivot alone leaves the force of redundant rows to the last one in the order. All rows
-// of a node with joints alone are softened instead, so that they share it.
 void SaddleLdlt::soften(const Node& node, std::span<const Block> blocks) {
   const Factor f = at(node);
   for (int i = 0; i < node.n_rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
     f.S[i * node.n_rows + i] += fair_softness(blocks[index(row.attached->block)], row.row);
   }
+}
+
+// Clamping a pivot alone leaves the force of redundant rows to the last one in the order. All rows
+// of a node with joints alone are softened instead, so that they share it.
+void SaddleLdlt::factor_rows(const Node& node, std::span<const Block> blocks, auto rows,
+                             const auto& form) {
+  const Factor f = at(node);
+  form();
+  if (softened_) soften(node, blocks);
+  if (!factor_ldlt(f.S, rows, f.S_inverse)) return;
+  held_ = true;
+  if (node.has_contacts) return;
+  form();
+  soften(node, blocks);
+  factor_ldlt(f.S, rows, f.S_inverse);
 }
 
 void SaddleLdlt::factor_leaf(Node& node, std::span<const Block> blocks) {
@@ -192,16 +205,7 @@ void SaddleLdlt::factor_leaf(Node& node, std::span<const Block> blocks, auto row
       first[attached.other] = std::min(first[attached.other], i);
     }
   };
-  form();
-  if (softened_) soften(node, blocks);
-  if (factor_ldlt(f.S, rows, f.S_inverse)) {
-    held_ = true;
-    if (!node.has_contacts) {
-      form();
-      soften(node, blocks);
-      factor_ldlt(f.S, rows, f.S_inverse);
-    }
-  }
+  factor_rows(node, blocks, rows, form);
   solve_lower(f.S, rows, n, f.Z);
 }
 
@@ -269,16 +273,7 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
       for (int j = 0; j < 6; ++j) subtract_row(f.Y + j * n, weighted[j], n, Z);
     }
   };
-  form();
-  if (softened_) soften(node, blocks);
-  if (factor_ldlt(f.S, rows, f.S_inverse)) {
-    held_ = true;
-    if (!node.has_contacts) {
-      form();
-      soften(node, blocks);
-      factor_ldlt(f.S, rows, f.S_inverse);
-    }
-  }
+  factor_rows(node, blocks, rows, form);
   solve_lower(f.S, rows, n, f.Z);
   add_gram(f.Z, f.S_inverse, rows, 1.0, n, values_.data() + node.update);
 }

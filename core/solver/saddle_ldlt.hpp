@@ -187,6 +187,8 @@ class SaddleLdlt {
   /// @param B, U of the parent, n wide; used if there are coupled bodies besides the parent
   void add_left(const Node& child, Square6& A, double* B, double* U, int n);
   void eliminate_rows(Node& node, std::span<const Block> blocks);
+  /// Factors the rows of a node. @param form computes S, Z and the minimum pivots
+  void factor_rows(const Node& node, std::span<const Block> blocks, auto rows, const auto& form);
   /// Softens all rows of a node whose S is formed, and not yet factored.
   void soften(const Node& node, std::span<const Block> blocks);
   [[nodiscard]] double fair_softness(const Block& block, int row) const;

@@ -32,10 +32,8 @@ class RestitutionStage {
   [[nodiscard]] std::span<const std::uint8_t> struck() const { return struck_; }
 
   /// Sets up the rows of the first pending impacts, or of all if their times are not known, as one
-  /// simultaneous impact without forces: contacts
-  /// that do not rebound are open, joints are rigid. @param u as above  @param share of e, in [0,
-  /// 1]
-  /// @return true if there are any
+  /// simultaneous impact without forces: contacts that do not rebound are open, joints are rigid.
+  /// @param u as above  @param share of e, in [0, 1]  @return true if there are any
   bool set_impacts(const Substep& sub, std::span<const Vec6> u, double share,
                    std::span<Block> blocks);
   /// How long the forces have acted on u when a block closes [s]; 0 if it does not rebound.

@@ -229,6 +229,54 @@ TEST(Loops, RedundantRowsOfAPlanarLoopPressOnNothing) {
   EXPECT_NEAR(planar.force, turned.force, 1e-6 * planar.force);
 }
 
+/// The scene in other units: a metre is `length`, a kilogram is `mass` of them.
+Scene in_units(Scene scene, double length, double mass) {
+  for (Body& body : scene.bodies) {
+    std::get<Box>(body.shape).half_extents *= length;
+    body.mass *= mass;
+    body.inertia *= mass * length * length;
+    body.position *= length;
+    body.velocity *= length;
+  }
+  for (Joint& joint : scene.joints) {
+    base(joint).anchor_a *= length;
+    base(joint).anchor_b *= length;
+  }
+  scene.gravity *= length;
+  return scene;
+}
+
+/// The scene with bodies and joints in reverse order, and the bodies of joints swapped.
+Scene reversed(Scene scene) {
+  const auto last = static_cast<int>(scene.bodies.size()) - 1;
+  const auto place = [last](int body) { return body == kWorld ? kWorld : last - body; };
+  std::reverse(scene.bodies.begin(), scene.bodies.end());
+  std::reverse(scene.joints.begin(), scene.joints.end());
+  for (Joint& joint : scene.joints) {
+    auto& of_hinge = std::get<HingeJoint>(joint);
+    of_hinge.a = place(of_hinge.a);
+    of_hinge.b = place(of_hinge.b);
+    if (of_hinge.b == kWorld) continue;  // a moves
+    std::swap(of_hinge.a, of_hinge.b);
+    std::swap(of_hinge.anchor_a, of_hinge.anchor_b);
+    std::swap(of_hinge.axis_a, of_hinge.axis_b);
+  }
+  return scene;
+}
+
+TEST(Loops, RedundantRowsDependOnNoUnitsAndOrder) {
+  const Largest here = largest_forces(swing(), Vec3::UnitZ());
+  const Largest other_order = largest_forces(reversed(swing()), Vec3::UnitZ());
+  EXPECT_EQ(other_order.substeps, here.substeps);
+  EXPECT_NEAR(other_order.force, here.force, 1e-6 * here.force);
+  for (const auto& [length, mass] : {std::pair(1e3, 1e3), std::pair(1.0 / 0.0254, 1e-3)}) {
+    SCOPED_TRACE(length);
+    const Largest scaled = largest_forces(in_units(swing(), length, mass), Vec3::UnitZ());
+    EXPECT_EQ(scaled.substeps, here.substeps);
+    EXPECT_NEAR(scaled.force, here.force * mass * length, 1e-6 * here.force * mass * length);
+  }
+}
+
 // One redundant row alone took forces that grew with N.
 TEST(Loops, ForcesOfBricardsMechanismConverge) {
   const ExamCase exam = exact(scenes::exam_bricard());

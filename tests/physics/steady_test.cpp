@@ -17,11 +17,10 @@
 #include "tests/support/continues.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
+#include "tests/support/steady_settings.hpp"
 
 namespace substep::test {
 namespace {
-
-Settings steady() { return substep::Settings{}; }
 
 const Vec3 kOrigin = Vec3::Zero();
 

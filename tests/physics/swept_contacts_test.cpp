@@ -10,25 +10,18 @@
 #include <utility>
 #include <vector>
 
-#include "core/lab/presets.hpp"
 #include "core/model/names.hpp"
 #include "core/model/scene_builder.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/continues.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
+#include "tests/support/steady_settings.hpp"
 
 namespace substep::test {
 namespace {
 
 constexpr double kHalf = 0.1;  // radius, or half an edge [m]
-
-Settings steady_at(int n) {
-  Settings settings = find_preset("steady")->settings;
-  settings.mode = Mode::kConst;
-  settings.n = n;
-  return settings;
-}
 
 const Shape kBall = Sphere{kHalf};
 const Shape kCube = Box{{kHalf, kHalf, kHalf}};
@@ -132,7 +125,7 @@ TEST(SweptContacts, DetectionPerSubstepLetsAPlasticBodyRebound) {
 
 // K is skipped in a sub-step with an impact, but not if none is known.
 TEST(SweptContacts, AnImpactInTheFirstSubstepNeedsNoProbe) {
-  Settings settings = find_preset("steady")->settings;
+  Settings settings = steady();
   for (const Mode mode : {Mode::kAdaptive, Mode::kDamping, Mode::kStiffness, Mode::kBlend}) {
     SCOPED_TRACE(name_of(mode));
     settings.mode = mode;
@@ -250,7 +243,7 @@ TEST(SweptContacts, DetectionPerSubstepLetsAFastBodyPass) {
 
 TEST(SweptContacts, TooManyContactsAlongTheMotionAreRefused) {
   Scene scene = random_pile(9);
-  Simulator simulator = simulator_of(scene, find_preset("steady")->settings);
+  Simulator simulator = simulator_of(scene, steady());
   Budget budget;
   budget.contacts = 1.0;
   simulator.set_budget(budget);
@@ -324,7 +317,7 @@ TEST(SweptContacts, TheVerdictTellsPartingFromAGain) {
   const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
     parting += report.parting;
   };
-  const Outcome ours = run(scene, find_preset("steady")->settings, 2.0, every);
+  const Outcome ours = run(scene, steady(), 2.0, every);
   EXPECT_EQ(ours.verdict, "holds");
   const double lifted = ours.end.x[static_cast<std::size_t>(upper)].y() - 2.2 * kHalf;
   EXPECT_GT(lifted, 0.7 * kHalf);
@@ -335,7 +328,7 @@ TEST(SweptContacts, TheVerdictTellsPartingFromAGain) {
 
 TEST(SweptContacts, TheVerdictNamesWhoIsInsideWhom) {
   const std::shared_ptr<const Scene> scene = scene_of({kBall, 10.0});
-  EXPECT_EQ(run(*scene, find_preset("steady")->settings, 3.0).verdict, "holds");
+  EXPECT_EQ(run(*scene, steady(), 3.0).verdict, "holds");
   const std::string paper = run(*scene, Settings{.mode = Mode::kConst, .n = 1}, 3.0).verdict;
   EXPECT_NE(paper.find("overlap"), std::string::npos) << paper;
   EXPECT_NE(paper.find("(body_1, body_0)"), std::string::npos) << paper;
@@ -357,7 +350,7 @@ TEST(SweptContacts, PassiveScenesGainNoEnergy) {
       rise = std::max(rise, report.energy - lowest);
       kinetic = std::max(kinetic, report.kinetic);
     };
-    run(scene, find_preset("steady")->settings, 3.0, every, false);
+    run(scene, steady(), 3.0, every, false);
     // Parting the overlap that is allowed lifts what lies on it.
     EXPECT_LT(rise, std::max(0.01 * kinetic, 1e-5 * weight));
   }
@@ -383,185 +376,17 @@ TEST(SweptContacts, RandomPilesGainNoEnergy) {
   int gains = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
     const Scene scene = random_pile(seed);
-    EXPECT_LT(rise_of(scene, find_preset("steady")->settings, 4.0), 0.01) << seed;
+    EXPECT_LT(rise_of(scene, steady(), 4.0), 0.01) << seed;
     if (rise_of(scene, Settings{}, 4.0) > 0.01) ++gains;
   }
   EXPECT_GT(gains, 20);
 }
 
-// The struck ball moves for the rest of the sub-step only, and does not reach the next one in it.
-TEST(SweptContacts, BallsWithSmallGapsPassAnImpactOn) {
-  for (const double gap : {0.3e-3, 1e-3, 3e-3}) {
-    SceneBuilder builder("gaps");
-    for (int i = 0; i < 3; ++i) {
-      const double before = i == 0 ? 0.3 : 0.0;  // more than a frame of flight
-      const int ball = builder.add_body(kBall, 1.0, {i * (2.0 * kHalf + gap) - before, 0.0, 0.0});
-      builder.body(ball).restitution = 1.0;
-    }
-    builder.body(0).velocity = {1.24, 0.0, 0.0};
-    builder.scene().gravity = Vec3::Zero();
-    const Scene scene = *builder.build();
-    for (const int n : {0, 1, 4}) {  // 0: adaptive
-      SCOPED_TRACE(std::to_string(gap) + " n " + std::to_string(n));
-      const Outcome outcome =
-          run(scene, n == 0 ? Settings(find_preset("steady")->settings) : steady_at(n), 1.0);
-      const double speeds[] = {0.0, 0.0, 1.24};
-      for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_NEAR(outcome.end.u_synchronised[i].x(), speeds[i], 1e-4) << i;
-      }
-    }
-  }
-}
-
-// A plate on a slide, or on the floor, does not fall with the ball.
-TEST(SweptContacts, ABallReboundsFromWhatIsHeld) {
-  for (const bool slides : {true, false}) {
-    SCOPED_TRACE(slides);
-    constexpr double kHeight = 0.4;
-    SceneBuilder builder("plate");
-    if (!slides) builder.add_fixed(Plane{}, {0.0, -0.1, 0.0});
-    const int plate =
-        builder.add_body(Box{{0.5, 0.05, 0.5}}, slides ? 5.0 : 1000.0, {0.0, -0.05, 0.0});
-    if (slides) builder.add_prismatic(plate, kWorld, {0.0, -0.05, 0.0}, Vec3::UnitX());
-    const int ball = builder.add_body(kBall, 1.0, {0.0, kHeight + kHalf, 0.0});
-    builder.body(ball).restitution = 1.0;
-    double last = 0.0;
-    double before = 0.0;
-    std::vector<double> apexes;
-    const EveryFrame every = [&](const Simulator& simulator, const FrameReport&) {
-      const double height = simulator.state().x[index(ball)].y() - kHalf;
-      if (last > before && last >= height) apexes.push_back(last);
-      before = std::exchange(last, height);
-    };
-    run(*builder.build(), find_preset("steady")->settings, 2.5, every, false);
-    ASSERT_GE(apexes.size(), 3U);
-    for (const double apex : apexes) EXPECT_NEAR(apex, kHeight, 0.05 * kHeight);
-  }
-}
-
-// A domino that leans on another reported the speed of half a sub-step of fall.
-TEST(SweptContacts, RestingBodiesReportNoFall) {
-  for (const double frame : {1.0 / 30.0, 1.0 / 60.0}) {
-    SceneBuilder builder("dominoes");
-    builder.body(builder.add_fixed(Plane{}, Vec3::Zero())).friction = 0.4;
-    const Vec3 half{0.005, 0.05, 0.025};
-    for (int i = 0; i < 6; ++i) {
-      const int domino = builder.add_body(Box{half}, 0.1, {0.03 * i, half.y(), 0.0});
-      Body& body = builder.body(domino);
-      body.friction = 0.4;
-      if (i > 0) continue;
-      constexpr double kLean = 0.12;
-      body.orientation = Quat{Eigen::AngleAxisd(-kLean, Vec3::UnitZ())};
-      body.position = Vec3{half.x(), 0.0, 0.0} + body.orientation * Vec3{-half.x(), half.y(), 0.0};
-    }
-    builder.scene().frame = frame;
-    EXPECT_EQ(run(*builder.build(), find_preset("steady")->settings, 2.0).verdict, "holds")
-        << frame;
-  }
-}
-
-/// A box of unequal moments that tumbles fast onto a floor, or two that hit each other in space.
-Scene tumbling(unsigned seed, double e, double friction, bool in_space) {
-  std::mt19937_64 random(seed);
-  const auto number = [&](double least, double most) {
-    return least + (most - least) * (static_cast<double>(random() >> 11) * 0x1p-53);
-  };
-  SceneBuilder builder("tumbling");
-  builder.scene().gravity = in_space ? Vec3(Vec3::Zero()) : Vec3(0.0, -kGravity, 0.0);
-  if (!in_space) builder.body(builder.add_fixed(Plane{}, Vec3::Zero())).friction = friction;
-  for (int i = 0; i < (in_space ? 2 : 1); ++i) {
-    const Vec3 half{0.3, number(0.03, 0.3), number(0.03, 0.3)};
-    const int box =
-        builder.add_body(Box{half}, number(0.5, 2.0), {1.2 * i, in_space ? 0.0 : 1.0, 0.0});
-    Body& body = builder.body(box);
-    body.orientation =
-        Quat{number(-1, 1), number(-1, 1), number(-1, 1), number(-1, 1)}.normalized();
-    body.velocity =
-        in_space ? Vec3(i == 0 ? 3.0 : -3.0, 0.0, 0.0) : Vec3(number(-5, 5), -2.0, number(-5, 5));
-    body.angular_velocity = {number(-20, 20), number(-20, 20), number(-20, 20)};
-    body.friction = friction;
-    body.restitution = e;
-  }
-  return *builder.build();
-}
-
-TEST(SweptContacts, TumblingBoxesKeepTheirEnergyInElasticImpacts) {
-  for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
-    for (const bool in_space : {false, true}) {
-      int impacts = 0;
-      for (unsigned seed = 0; seed < 10; ++seed) {
-        const Scene scene = tumbling(seed, 1.0, 0.0, in_space);
-        for (const int n : {0, 8, 64}) {  // 0: adaptive
-          SCOPED_TRACE(std::to_string(seed) + " n " + std::to_string(n));
-          Settings settings = n == 0 ? Settings(find_preset("steady")->settings) : steady_at(n);
-          settings.integrator = integrator;
-          double energy = 0.0;
-          const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
-            if (report.frame == 1) energy = report.energy;
-            impacts += static_cast<int>(report.work.impacts);
-            EXPECT_EQ(report.lowered, 0);
-            EXPECT_NEAR(report.energy, energy, 1e-3 * energy);
-          };
-          run(scene, settings, 3.0, every, false);
-        }
-      }
-      EXPECT_GT(impacts, in_space ? 20 : 100);
-    }
-  }
-}
-
-// Newton's law with friction adds energy (Kane and Levinson 1985).
-TEST(SweptContacts, RestitutionIsLoweredWhereItWouldAddEnergy) {
-  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
-    int lowered = 0;
-    for (unsigned seed = 0; seed < 20; ++seed) {
-      for (const double e : {0.5, 0.9, 1.0}) {
-        SCOPED_TRACE(std::to_string(seed) + " e " + std::to_string(e));
-        Settings settings = find_preset("steady")->settings;
-        settings.solver = solver;
-        double energy = std::numeric_limits<double>::infinity();
-        double kinetic = 0.0;
-        const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
-          kinetic = std::max(kinetic, report.kinetic);
-          EXPECT_LT(report.energy, energy + 0.01 * kinetic);
-          energy = std::min(energy, report.energy);
-          lowered += report.lowered;
-          EXPECT_EQ(report.lowered > 0, report.lowered_to < 1.0);
-          EXPECT_GE(report.lowered_to, 0.0);
-        };
-        run(tumbling(seed, e, 1.0, false), settings, 3.0, every, false);
-      }
-    }
-    EXPECT_GT(lowered, 20);
-  }
-}
-
-TEST(SweptContacts, ARowOfBallsPassesAnImpactOn) {
-  SceneBuilder builder("row");
-  for (int i = 0; i < 5; ++i) {
-    const int ball = builder.add_body(kBall, 1.0, {i == 0 ? -1.0 : 2.0 * kHalf * i, 0.0, 0.0});
-    builder.body(ball).restitution = 1.0;
-  }
-  builder.body(0).velocity = {5.0, 0.0, 0.0};
-  builder.scene().gravity.setZero();
-  for (const int n : kSubsteps) {
-    SCOPED_TRACE(n);
-    Simulator simulator = simulator_of(builder.build(), steady_at(n));
-    for (int i = 0; i < 30; ++i) simulator.step();
-    for (std::size_t i = 0; i < 5; ++i) {
-      EXPECT_NEAR(simulator.state().u[i].x(), i == 4 ? 5.0 : 0.0, 5e-3) << i;
-    }
-    // No time is lost on the way of 1 m to the row and from there on.
-    EXPECT_NEAR(simulator.state().x[4].x(), 8.0 * kHalf + 5.0 * (0.5 - 1.0 / 5.0), 1e-3);
-  }
-}
-
-// The wrecking ball hits the crates at 1 s; balls bounce from 0.6 s on.
 TEST(SweptContacts, ContinueBitForBit) {
   for (const Scene& of : {scenes::wrecking_ball(), scenes::bouncing_balls()}) {
     SCOPED_TRACE(of.name);
     const auto scene = shared(of);
-    const Settings& settings = find_preset("steady")->settings;
+    const Settings& settings = steady();
     Simulator whole = simulator_of(scene, settings);
     Simulator parts = simulator_of(scene, settings);
     for (int i = 0; i < 66; ++i) {
@@ -582,7 +407,7 @@ TEST(SweptContacts, HoldTogetherWithExactJoints) {
   const int ball = builder.add_body(Sphere{0.2}, 10.0, {1.2, 0.0, 0.0});
   builder.add_ball_joint(rod, kWorld, Vec3::Zero());
   builder.add_ball_joint(ball, rod, {1.0, 0.0, 0.0});
-  const Settings& settings = find_preset("steady")->settings;
+  const Settings& settings = steady();
   double deepest = 0.0;
   double gap = 0.0;
   const EveryFrame every = [&](const Simulator&, const FrameReport& report) {

@@ -12,6 +12,9 @@ namespace substep {
 inline constexpr int kMaxRows = 5;
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
+/// Bias of a contact that nothing closes [m/s].
+inline constexpr double kStaysOpen = 1e30;
+
 /// Block::active_set of a row without a previous sub-step.
 inline constexpr std::int8_t kUnknownSet = 2;
 
@@ -37,6 +40,7 @@ struct Block {
   std::int8_t position_rows = 0;  // joint: number of positional rows; they precede the angular ones
   bool seeded = false;            // the block existed in the last sub-step: impulse is its seed
   bool was_closed = false;        // contact: carried a force in the last sub-step
+  bool awaits = false;            // contact: open, it closes at the end of the sub-step or later
   std::int8_t active_set[kMaxRows];  // BPP: -1 at lo, 0 free (always for joints), +1 at hi
 
   // Point rows in a direct solve read only the members up to here, to save memory bandwidth.

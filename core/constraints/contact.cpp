@@ -14,6 +14,7 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
   block.body_a = point.a;
   block.body_b = point.b;
   block.rows = 1;
+  block.awaits = false;
   block.has_point_rows = false;
   const Vec3 b_from_a = x_b - x_a;
   const Vec3 r_a = 0.5 * (point.point_a + (b_from_a + point.point_b));

@@ -123,12 +123,12 @@ SweptContacts::Found SweptContacts::meet(const Sweep& sweep, const BroadPhase::P
   const Travel a = travel_of(sweep, pair.i);
   const Travel b = travel_of(sweep, pair.j);
   const std::optional<double> time =
-      time_of_impact(a, b, sweep.dt, 0.0, kTouching * half_width, points_, visits_);
+      time_of_impact(a, b, sweep.until, 0.0, kTouching * half_width, points_, visits_);
   if (!time) return Found::kNothing;
   earliest_ = std::min(earliest_, *time);
   // Two corners can meet without a point within either face; a little later there is one.
   for (const double share : {0.0, 1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0}) {
-    const double at = *time + share * (sweep.dt - *time);
+    const double at = *time + share * (sweep.until - *time);
     const Waypoint on_a = after(a, at);
     const Waypoint on_b = after(b, at);
     points_.clear();
@@ -154,7 +154,7 @@ SweptContacts::Found SweptContacts::append(const Sweep& sweep, Detector& detecto
   earliest_ = sweep.dt;
   Found all = Found::kNothing;
   for (const BroadPhase::Pair& pair :
-       detector.may_meet(sweep.scene, sweep.part, sweep.state, sweep.R_WB, sweep.w, sweep.dt)) {
+       detector.may_meet(sweep.scene, sweep.part, sweep.state, sweep.R_WB, sweep.w, sweep.until)) {
     const double half_width = detector.half_width(pair.i, pair.j);
     const Pair* known = pair_with_rows(pair.i, pair.j);
     const Found found = known != nullptr

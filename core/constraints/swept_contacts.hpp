@@ -24,6 +24,7 @@ class SweptContacts {
     std::span<const Mat3> R_WB;  // at its start
     std::span<const Vec6> w;     // per body: velocities of the motion, 0 if static [m/s, rad/s]
     double dt;                   // [s]
+    double until;                // pairs without rows may meet until then, >= dt [s]
   };
 
   enum class Found : std::uint8_t { kNothing, kOverlaps, kContacts };

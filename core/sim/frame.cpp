@@ -59,7 +59,7 @@ void Simulator::Impl::probe(FrameReport& report) {
   const auto euler = make_integrator(*scene, joints.get(), once.settings);
   once.integrator = euler.get();
   once.part = &all;
-  once.dt = scene->frame;
+  once.dt = once.planned_dt = scene->frame;
   once.probing = true;
   clock = StageClock(measures.stages);
   copy(state.u, once.u_start);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sim/lower_restitution.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
 
@@ -38,12 +39,7 @@ bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   const bool spreads = restitution->spreads(sub, u, sub.rows);
   sub.struck = restitution->struck();
   if (!spreads) return true;
-  std::span<const InverseMass> masses = sub.inverse_mass;
-  if (changes_mass(settings.mode)) {  // no time passes: no damping or geometric stiffness
-    rigid_mass.resize(sub.inverse_mass.size());
-    inverse_mass(sub.inertia_inverse, *sub.part, sub.R_WB, rigid_mass);
-    masses = rigid_mass;
-  }
+  const std::span<const InverseMass> masses = masses_of_impacts(sub);
   for (const int body : sub.part->moving) state.u[index(body)] -= sub.u_before[index(body)];
   if (sweeps) copy(u_star, sub.u_before);
   // Impacts among many bodies can continue indefinitely at decreasing speed. After this many passes
@@ -52,9 +48,9 @@ bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   for (int i = 0; restitution->set_impacts(sub, sub.u_before, 1.0, sub.rows) && i < kMostImpacts;
        ++i) {
     if (sweeps) copy(sub.u_before, u_star);
-    if (!solve_impacts(sub, masses, report)) return false;
+    if (!solve_impacts(sub, sub.rows, sub.u_before, masses, report)) return false;
     if (!sweeps) continue;
-    if (!lower_restitution(sub, masses, report)) return false;
+    if (!lower_impacts(sub, masses, report)) return false;
     // The impulse moves the bodies only from the time of the impact on.
     for (const int body : sub.part->moving) {
       shift[index(body)] -= restitution->late() * (sub.u_before[index(body)] - u_star[index(body)]);
@@ -68,9 +64,17 @@ bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   return true;
 }
 
-bool Simulator::Impl::solve_impacts(Substep& sub, std::span<const InverseMass> masses,
-                                    FrameReport& report) {
-  System system{sub.rows, masses, sub.u_before, {}, sub.dt, sub.R_WB, scene->regularisation};
+// No time passes: no damping or geometric stiffness.
+std::span<const InverseMass> Simulator::Impl::masses_of_impacts(const Substep& sub) {
+  if (!changes_mass(settings.mode)) return sub.inverse_mass;
+  rigid_mass.resize(sub.inverse_mass.size());
+  inverse_mass(sub.inertia_inverse, *sub.part, sub.R_WB, rigid_mass);
+  return rigid_mass;
+}
+
+bool Simulator::Impl::solve_impacts(Substep& sub, std::span<Block> rows, std::span<Vec6> u,
+                                    std::span<const InverseMass> masses, FrameReport& report) {
+  System system{rows, masses, u, {}, sub.dt, sub.R_WB, scene->regularisation};
   system.limits = limits_of_solve(sub, report);
   const SolveReport solved = impact_solver().find_velocities(system, settings);
   if (solved.status == SolveStatus::kOverLimits) {
@@ -83,13 +87,12 @@ bool Simulator::Impl::solve_impacts(Substep& sub, std::span<const InverseMass> m
 }
 
 // impulse . (w + w+)/2.
-Simulator::Impl::ContactWork Simulator::Impl::work_of_contacts(const Substep& sub,
-                                                               std::span<const Vec6> u,
-                                                               std::span<const Vec6> u_plus,
-                                                               bool of_impacts) const {
+ContactWork Simulator::Impl::work_of_contacts(const Substep& sub, std::span<const Block> rows,
+                                              std::span<const Vec6> u, std::span<const Vec6> u_plus,
+                                              bool along_motion) const {
   ContactWork work;
-  for (std::size_t i = 0; i < sub.rows.size(); ++i) {
-    const Block& block = sub.rows[i];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Block& block = rows[i];
     if (!block.is_contact()) continue;  // joints that hold do no work
     double before[kMaxRows];
     double after[kMaxRows];
@@ -97,7 +100,7 @@ Simulator::Impl::ContactWork Simulator::Impl::work_of_contacts(const Substep& su
     row_speeds(block, u, before);
     row_speeds(block, u_plus, after);
     double forced = 0.0;
-    if (of_impacts) {  // when the contact closes
+    if (along_motion) {  // when the contact closes
       row_speeds(block, sub.gain, gained);
       forced = restitution->force_time(i) / impulse_time_of(sub, block);
     }
@@ -111,46 +114,23 @@ Simulator::Impl::ContactWork Simulator::Impl::work_of_contacts(const Substep& su
   return work;
 }
 
-// Where friction acts or restitutions differ, Newton's law can add energy (Kane and Levinson 1985).
-// All e of the impact are then lowered to about the largest share with which it adds none. Without
-// rebound an impact never does: its work impulse . (w + w+)/2 is impulse . w+ - impulse . A
-// impulse/2, and each row's impulse . w+ <= 0.
-bool Simulator::Impl::lower_restitution(Substep& sub, std::span<const InverseMass> masses,
-                                        FrameReport& report) {
-  constexpr int kMostTrials = 8;
-  constexpr double kClose = 1e-4;
+bool Simulator::Impl::lower_impacts(Substep& sub, std::span<const InverseMass> masses,
+                                    FrameReport& report) {
   const auto work = [&] {
     impact_solver().find_impulses(sub.rows);
-    return work_of_contacts(sub, u_star, sub.u_before, true);
+    return work_of_contacts(sub, sub.rows, u_star, sub.u_before, true);
+  };
+  const auto solve = [&](double share) {
+    copy(u_star, sub.u_before);
+    restitution->set_impacts(sub, sub.u_before, share, sub.rows);
+    return solve_impacts(sub, sub.rows, sub.u_before, masses, report);
   };
   const ContactWork full = work();
   exchanged += full.exchanged;
   if (!full.adds()) return true;
-  double high = 1.0;
-  double added_at_high = full.added;
-  double low = 0.0;
-  double added_at_low = 0.0;
-  double share = 0.0;
-  for (int trial = 0; trial < kMostTrials; ++trial) {
-    copy(u_star, sub.u_before);
-    restitution->set_impacts(sub, sub.u_before, share, sub.rows);
-    if (!solve_impacts(sub, masses, report)) return false;
-    const double added = work().added;
-    if (added <= 0.0 || trial == 0) {
-      copy(sub.u_before, u_rebounding);
-      low = share;
-      added_at_low = added;
-      if (added >= -kClose * full.exchanged) break;
-      if (trial > 1) added_at_high *= 0.5;  // Illinois: the chord of a convex function stays below
-    } else {
-      high = share;
-      added_at_high = added;
-    }
-    share = low - added_at_low * (high - low) / (added_at_high - added_at_low);
-  }
-  copy(u_rebounding, sub.u_before);
-  lower_to(low);
-  return true;
+  const auto share = lower_restitution(full, solve, work, sub.u_before, u_rebounding);
+  if (share) lower_to(*share);
+  return share.has_value();
 }
 
 // What was struck separates while the other rows of the sub-step stop bodies: together they can add
@@ -160,7 +140,7 @@ bool Simulator::Impl::rebounds_add_energy(const Substep& sub) {
   constexpr double kError = 0.005;  // of the energy of the impacts
   if (sub.struck.empty()) return false;
   sub.solver->find_impulses(sub.rows);
-  return work_of_contacts(sub, u_rebounding, state.u, false).added > kError * exchanged;
+  return work_of_contacts(sub, sub.rows, u_rebounding, state.u, false).added > kError * exchanged;
 }
 
 }  // namespace substep

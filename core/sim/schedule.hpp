@@ -23,6 +23,8 @@ class Schedule {
   // Properties of the next sub-step; valid while running().
   [[nodiscard]] const Part& part() const { return *turns_[at_].part; }
   [[nodiscard]] const SubstepClock& clock() const { return turns_[at_].clock; }
+  /// Ends the sub-step after dt. @param dt [s]
+  void shorten(double dt) { turns_[at_].clock.shorten(dt); }
   /// Advances to the next sub-step. @param r, r_rotation of the current one, if needed [1/s^2]
   void advance(double r, double r_rotation) {
     SubstepClock& clock = turns_[at_].clock;

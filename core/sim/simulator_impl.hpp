@@ -14,6 +14,7 @@
 #include "core/constraints/moved_rows.hpp"
 #include "core/constraints/swept_contacts.hpp"
 #include "core/sim/islands.hpp"
+#include "core/sim/lower_restitution.hpp"
 #include "core/sim/schedule.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/solver/solver.hpp"
@@ -92,34 +93,52 @@ struct Simulator::Impl {
   void seed(const Substep& sub);
   void set_bias(Substep& sub, FrameReport& report);
   bool solve_rows(Substep& sub, FrameReport& report);
+  void set_softness(const Substep& sub, std::span<Block> rows) const;
   /// Repeats a solve until joints hold at the end. @param system its u* is u_star, by: its solver
   void close_joints(const Substep& sub, const System& system, Solver& by,
                     SolveReport& solved);  // close_joints.cpp
   // impacts.cpp
   bool propagate_impacts(Substep& sub, FrameReport& report);
-  bool solve_impacts(Substep& sub, std::span<const InverseMass> masses, FrameReport& report);
-  bool lower_restitution(Substep& sub, std::span<const InverseMass> masses, FrameReport& report);
-  struct ContactWork {
-    double added = 0.0;      // to the kinetic energy [J]
-    double exchanged = 0.0;  // sum of magnitudes [J]
-    [[nodiscard]] bool adds() const { return added > 1e-9 * exchanged; }
-  };
-  /// Of the impulses of all contacts. @param u, u_plus before and after them  @param of_impacts
-  /// with the velocities that forces give until they happen
-  [[nodiscard]] ContactWork work_of_contacts(const Substep& sub, std::span<const Vec6> u,
-                                             std::span<const Vec6> u_plus, bool of_impacts) const;
+  bool solve_impacts(Substep& sub, std::span<Block> rows, std::span<Vec6> u,
+                     std::span<const InverseMass> masses, FrameReport& report);
+  std::span<const InverseMass> masses_of_impacts(const Substep& sub);
+  bool lower_impacts(Substep& sub, std::span<const InverseMass> masses, FrameReport& report);
+  /// @param u, u_plus before and after them  @param along_motion with the velocities that forces
+  /// give until the contacts close
+  [[nodiscard]] ContactWork work_of_contacts(const Substep& sub, std::span<const Block> rows,
+                                             std::span<const Vec6> u, std::span<const Vec6> u_plus,
+                                             bool along_motion) const;
   bool rebounds_add_energy(const Substep& sub);  // in the solve after them
   void lower_to(double share) {
     ++lowered;
     lowered_to = std::min(lowered_to, share);
   }
   Solver& impact_solver();
+  // strike.cpp
+  /// A sub-step that an impact ends looks further, of its length, for the time of the impact.
+  static constexpr double kAhead = 1.002;
+  bool solve_until_impact(Substep& sub, FrameReport& report);
+  bool may_shorten(const Substep& sub) const;
+  /// True if a contact that closes at this speed is an impact. @param approach [m/s]
+  bool is_fast(const Block& contact, double approach) const;
+  bool arrives(const Substep& sub, const Block& contact) const;  // fast, before the forces
+  double touching(const Block& contact) const;                   // the gap of bodies that touch [m]
+  double closing_time(const Substep& sub, const Block& contact) const;
+  void await_impacts(const Substep& sub, bool shortens);
+  SweptContacts::Found settle_waiting(const Substep& sub, std::size_t solved,
+                                      SweptContacts::Found found);
+  bool strike(Substep& sub, FrameReport& report);
+  double approach_at_start(std::span<const Vec6> u, const Block& block) const;
+  void set_reactions(const Substep& sub, std::span<const Vec6> u, std::span<Block> rows);
+  bool set_hits(std::span<const Vec6> u, double share, std::span<Block> rows);
+  void start_from(Substep& sub, std::span<const Vec6> u_minus, std::span<const Vec6> u_plus);
+  void set_dt_previous(int body, double dt);
   // swept.cpp
   bool sweeps_contacts(const Substep& sub) const;
-  bool solve_swept(Substep& sub, FrameReport& report);
+  bool solve_swept(Substep& sub, bool shortens, FrameReport& report);
   bool solve_softly(Substep& sub, FrameReport& report);
   bool solve_afresh(Substep& sub, FrameReport& report);
-  SweptContacts::Found sweep(Substep& sub);
+  SweptContacts::Found sweep(Substep& sub, double until);      // until [s], >= dt
   void add_reactions(const Substep& sub, std::size_t solved);  // to the gain; rows before the sweep
   bool too_many_swept() const;
   bool find_shift(Substep& sub, FrameReport& report);
@@ -238,6 +257,12 @@ struct Simulator::Impl {
   std::vector<Vec6> gain;                // by the forces of the sub-step
   std::vector<Vec6> shift;               // of the motion beyond u: impacts, overlaps [m/s, rad/s]
   double contact_softness = 0.0;         // of the mobility of a row [-]
+  std::vector<Vec6> u_meeting;           // at the time of the poses, when bodies are struck
+  Blocks striking;                       // rows of impacts at the start of the sub-step
+  double ends_at = 0.0;                  // an impact ends the sub-step [s]; 0: none
+  double dt_before = 0.0;                // State::dt_previous before a strike [s]
+  std::vector<OwnSubstep> own_before;    // State::own, likewise
+  int shortened = 0;                     // how often this sub-step was shortened
   SolveStatus last_solve = SolveStatus::kSolved;
   Blocks parting;  // rows that part overlaps
 

@@ -14,19 +14,6 @@
 
 namespace substep {
 
-namespace {
-
-void set_softness(std::span<Block> blocks, double regularisation, double dt) {
-  const double per_dt2 = 1.0 / (dt * dt);
-  for (Block& block : blocks) {
-    for (int row = 0; row < kMaxRows; ++row) {
-      block.softness[row] = block.C[row] * per_dt2 + regularisation;
-    }
-  }
-}
-
-}  // namespace
-
 Substep& Simulator::Impl::begin_substep(bool last_of_share, FrameReport& report) {
   clock = StageClock(measures.stages);
   if (schedule.clock().taken() == 0) {
@@ -39,6 +26,7 @@ Substep& Simulator::Impl::begin_substep(bool last_of_share, FrameReport& report)
   current.settings = settings;
   current.part = &schedule.part();
   current.dt = schedule.clock().dt();
+  current.planned_dt = schedule.clock().planned_dt();
   current.outputs_needed = last_of_share || schedule.clock().left() == 1;
   rotation_matrices(current.part->moving, state, current.R_WB);
   copy(state.u, current.u_start);
@@ -115,8 +103,9 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
 
 bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   sub.shift = sub.gain = {};
-  const bool solved = sweeps_contacts(sub) ? solve_swept(sub, report) : solve_rows(sub, report);
-  if (!solved) return false;
+  if (!(sweeps_contacts(sub) ? solve_until_impact(sub, report) : solve_rows(sub, report))) {
+    return false;
+  }
   if (sub.outputs_needed || sub.probing || schedule.clock().needs_stiffness() ||
       starts_from_last_forces(sub.settings) || springs_are_stored(sub)) {
     solver->find_impulses(sub.rows);
@@ -131,9 +120,18 @@ bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   return true;
 }
 
+void Simulator::Impl::set_softness(const Substep& sub, std::span<Block> rows) const {
+  const double per_dt2 = 1.0 / (sub.dt * sub.dt);
+  for (Block& block : rows) {
+    for (int row = 0; row < kMaxRows; ++row) {
+      block.softness[row] = block.C[row] * per_dt2 + scene->regularisation;
+    }
+  }
+  if (sweeps_contacts(sub)) stiffen_contacts(sub, contact_softness, rows);
+}
+
 bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
-  set_softness(sub.rows, scene->regularisation, sub.dt);
-  if (sweeps_contacts(sub)) stiffen_contacts(sub, contact_softness);
+  set_softness(sub, sub.rows);
   if (!propagate_impacts(sub, report)) return false;
   if (sweeps_contacts(sub) && !sub.struck.empty()) copy(state.u, u_rebounding);
   if (forces_are_stored(sub)) seed(sub);
@@ -169,8 +167,8 @@ void Simulator::Impl::seed(const Substep& sub) {
 
 void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
   if (sub.probing) return set_probe_bias(sub.rows, sub.dt);
-  set_drift_bias(sub.rows, drift_law(sub.settings), sub.settings.drift_tau, sub.dt);
-  if (sweeps_contacts(sub)) set_swept_bias(sub.rows, sub.gain, sub.shift, sub.dt);
+  set_drift_bias(sub.rows, drift_law(sub.settings), sub.settings.drift_tau, sub.dt, sub.planned_dt);
+  if (sweeps_contacts(sub)) set_swept_bias(sub.rows, sub.gain, sub.shift, sub.dt, sub.planned_dt);
   set_springs(sub, state);
   if (sub.settings.drift_order == 2) add_curvature_bias(sub.rows, sub.u_start, sub.dt);
   if (restitution && separates) restitution->apply(sub, sub.u_before, sub.rows);

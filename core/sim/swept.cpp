@@ -1,9 +1,9 @@
 // Contacts found along the motion of a sub-step (detection continuous).
 //
 // The sub-step is solved with the contacts that touch at its start. If the motion then closes
-// others, their rows are added and the sub-step is solved again. Velocities and poses are corrected
-// apart, as in Moreau's scheme with projection (Acary 2013): the motion is dt (u+ + shift), and the
-// shift, which no velocity sees,
+// others fast, it ends there (strike.cpp); else their rows are added and it is solved again.
+// Velocities and poses are corrected apart, as in Moreau's scheme with projection (Acary 2013): the
+// motion is dt (u+ + shift), and the shift, which no velocity sees,
 //   - begins a rebound where and when the contact closes: an impulse after the time t of a sub-step
 //     moves the body for dt - t only;
 //   - keeps shapes apart that a curved motion would overlap;
@@ -44,46 +44,57 @@ void Simulator::Impl::predict_motions(const Substep& sub) {
 }
 
 // Appends what the motion closes, with friction.
-SweptContacts::Found Simulator::Impl::sweep(Substep& sub) {
+SweptContacts::Found Simulator::Impl::sweep(Substep& sub, double until) {
   predict_motions(sub);
   const std::size_t known = blocks.size();
-  const SweptContacts::Found found = swept->append({*scene, *sub.part, state, sub.R_WB, w, sub.dt},
-                                                   contact->detector(), first_block, blocks);
+  const SweptContacts::Found found =
+      swept->append({*scene, *sub.part, state, sub.R_WB, w, sub.dt, until}, contact->detector(),
+                    first_block, blocks);
   if (friction) friction->append(*scene, sub.R_WB, blocks.from(known));
+  set_softness(sub, blocks.from(known));
   sub.rows = blocks.from(first_block);
   return found;
 }
 
-bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
+bool Simulator::Impl::solve_swept(Substep& sub, bool shortens, FrameReport& report) {
   if (!swept) {
     swept = std::make_unique<SweptContacts>();
     swept->reserve(blocks.capacity());
     parting.reserve(blocks.capacity());
+    striking.reserve(blocks.capacity());
     impact_solver().reserve(state.u.size(), blocks.capacity());
   }
-  u_forced.assign(state.u.begin(), state.u.end());
-  u_unforced.assign(sub.u_before.begin(), sub.u_before.end());
   gain.resize(state.u.size());
   u_rebounding.resize(state.u.size());
-  for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = u_forced[i] - u_unforced[i];
+  for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = state.u[i] - sub.u_before[i];
+  lowered = 0;
+  lowered_to = 1.0;
+  if (!strike(sub, report)) return false;
+  const int lowered_at_start = lowered;
+  const double lowered_at_start_to = lowered_to;
   sub.gain = gain;
+  u_forced.assign(state.u.begin(), state.u.end());
+  u_unforced.assign(sub.u_before.begin(), sub.u_before.end());
+  await_impacts(sub, shortens);
   SweptContacts::Found found = SweptContacts::Found::kContacts;
   std::size_t solved = 0;  // blocks
   for (int solves = 0; solves < kMostSolves && found == SweptContacts::Found::kContacts; ++solves) {
     if (solves > 0 && !within_budget(sub, report)) return false;
     if (!solve_softly(sub, report)) return false;
     solved = blocks.size();
-    found = sweep(sub);
-    if (solves == 0 && found == SweptContacts::Found::kContacts) add_reactions(sub, solved);
+    found = sweep(sub, shortened > 0 ? kAhead * sub.dt : sub.dt);
     if (too_many_swept()) {
       report.status = StepStatus::kTooManyContacts;
       report.overrun.budget = budget.contacts;
       drop_rows(sub);
       return false;
     }
+    if (shortens) found = settle_waiting(sub, solved, found);
+    if (ends_at > 0.0) return true;
+    if (solves == 0 && found == SweptContacts::Found::kContacts) add_reactions(sub, solved);
   }
-  report.lowered += lowered;
-  report.lowered_to = std::min(report.lowered_to, lowered_to);
+  report.lowered += lowered_at_start + lowered;
+  report.lowered_to = std::min({report.lowered_to, lowered_at_start_to, lowered_to});
   const auto overlaps = [&](const Block& block) { return parts(block); };
   bool shifts = found != SweptContacts::Found::kNothing ||
                 std::any_of(sub.rows.begin(), sub.rows.end(), overlaps);
@@ -97,7 +108,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
       for (const int body : sub.part->moving) shift[index(body)] -= rest * w[index(body)];
       break;
     }
-    shifts = sweep(sub) != SweptContacts::Found::kNothing;
+    shifts = sweep(sub, sub.dt) != SweptContacts::Found::kNothing;
   }
   blocks.keep(solved);  // those found since have no forces
   sub.rows = blocks.from(first_block);

@@ -30,8 +30,8 @@ constexpr double kSoftContact = 1e-6;
 bool is_soft_contact(const ContactModel& model) { return model.compliance >= kSoftContact; }
 bool is_soft_contact(const Block& contact) { return contact.C[0] >= kSoftContact; }
 
-void stiffen_contacts(const Substep& sub, double share) {
-  for (Block& block : sub.rows) {
+void stiffen_contacts(const Substep& sub, double share, std::span<Block> rows) {
+  for (Block& block : rows) {
     if (!block.is_contact()) continue;
     for (int row = 0; row < block.rows; ++row) {
       if (block.C[row] >= kSoftContact) continue;

@@ -46,7 +46,7 @@ bool is_soft_contact(const ContactModel& model);
 /// Makes contacts that are not springs rigid, but for a softness that is small beside the mobility
 /// of each row: C/dt^2 would let bodies sink and rebound, the more the shorter the sub-step.
 /// @param share of the mobility [-]
-void stiffen_contacts(const Substep& sub, double share);
+void stiffen_contacts(const Substep& sub, double share, std::span<Block> rows);
 
 /// Sets bias and softness of all compliant rows, after the drift correction. Block::elastic is the
 /// elastic part of phi; the rest is drift.

@@ -13,11 +13,13 @@ double drift_rate(Drift law, double tau, double dt) {
   return law == Drift::kSoft && dt < tau ? dt / (tau * tau) : 1.0 / dt;
 }
 
-void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt) {
+void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt, double planned_dt) {
   const double full = 1.0 / dt;
   const double rate = drift_rate(law, tau, dt);
+  const double of_joints = rate == full ? 1.0 / planned_dt : rate;
   for (Block& block : blocks) {  // all kMaxRows: a compile-time loop bound
-    for (int row = 0; row < kMaxRows; ++row) block.bias[row] = block.phi[row] * rate;
+    const double of_block = block.is_contact() ? rate : of_joints;
+    for (int row = 0; row < kMaxRows; ++row) block.bias[row] = block.phi[row] * of_block;
     if (!block.is_contact()) continue;
     if (block.phi[0] > 0.0) {
       block.bias[0] = block.phi[0] * full;
@@ -81,14 +83,19 @@ double gained_speed(const Block& contact, std::span<const Vec6> gain) {
 }
 
 void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
-                    std::span<const Vec6> shift, double dt) {
+                    std::span<const Vec6> shift, double dt, double planned_dt) {
   constexpr double kYields = 0.1;  // at most this part of the speed by the forces
   constexpr double kRigid = 1e-4;  // but the softness not below this part of what it was
   constexpr double kKept = 0.5;  // of the force: less than all, so that forces in a jam are bounded
   for (Block& block : blocks) {
     if (!block.is_contact() || is_soft_contact(block)) continue;
+    if (block.awaits) {
+      block.bias[0] = kStaysOpen;
+      continue;
+    }
     // The motion is that of u + shift: a body that was struck moves for the rest of the sub-step.
-    block.bias[0] = std::max(std::max(block.phi[0], 0.0) / dt + normal_speed(block, shift), 0.0);
+    const double time = block.was_closed ? planned_dt : dt;
+    block.bias[0] = std::max(std::max(block.phi[0], 0.0) / time + normal_speed(block, shift), 0.0);
     if (!block.was_closed) continue;
     const double yields = block.softness[0] * block.impulse[0];
     const double share = std::clamp(kYields * gained_speed(block, gain) / yields, kRigid, 1.0);

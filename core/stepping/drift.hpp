@@ -13,8 +13,10 @@ namespace substep {
 ///   soft  phi dt/tau^2 for dt < tau, else phi/dt
 /// An open contact has bias gap/dt under both laws, so that a body does not stop early. The elastic
 /// part of a closed contact's phi, Block::elastic, is not drift: only phi - elastic is corrected.
-/// Joint springs are set afterwards: compliance.hpp. @param dt [s]
-void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt);
+/// Joint springs are set afterwards: compliance.hpp. The gap of a joint must not become the speed
+/// of a sub-step that an impact shortens: phi/planned_dt then.
+/// @param dt [s]  @param planned_dt >= dt [s]
+void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt, double planned_dt);
 
 /// Relative rate of the drift correction under either law [1/s].
 double drift_rate(Drift law, double tau, double dt);
@@ -42,9 +44,12 @@ double gained_speed(const Block& contact, std::span<const Vec6> gain);
 /// For contacts that are found along the motion: an overlap is not corrected by velocities, and the
 /// softness, reduced under a load, acts on the change of the force alone. Bodies would sink with
 /// the softness times the force. The impulses are those of the last sub-step.
-/// @param gain as above  @param shift of the motion, Substep::shift  @param dt [s]
+/// The small gap of a contact that rests must not become a fall in a sub-step that an impact
+/// shortens.
+/// @param gain as above  @param shift of the motion, Substep::shift
+/// @param dt, planned_dt as above [s]
 void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
-                    std::span<const Vec6> shift, double dt);
+                    std::span<const Vec6> shift, double dt, double planned_dt);
 
 /// For the probe: no drift correction; open contacts stay open. @param dt [s]
 void set_probe_bias(std::span<Block> blocks, double dt);

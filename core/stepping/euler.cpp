@@ -47,6 +47,10 @@ Vec3 Euler::strike(const Substep& sub, std::size_t body, const Vec3& spin_at_sta
   return strikes_spin(sub, body) ? gyroscopic_->strike(sub, body, spin_at_start) : spin_at_start;
 }
 
+void Euler::keep_strikes(const Substep& sub) {
+  if (gyroscopic_ && gyroscopic_->predicts()) gyroscopic_->keep_strikes(sub);
+}
+
 std::int64_t Euler::aim(const Substep& sub, State& /*state*/) {
   if (gyroscopic_) gyroscopic_->bend_rows(sub);
   return 0;

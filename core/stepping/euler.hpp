@@ -19,6 +19,7 @@ class Euler : public TimeIntegrator {
   void begin_solve(const Substep& sub) override;
   [[nodiscard]] Vec3 spin_at_start(const Substep& sub, std::size_t body) const override;
   Vec3 strike(const Substep& sub, std::size_t body, const Vec3& spin_at_start) override;
+  void keep_strikes(const Substep& sub) override;
   std::int64_t aim(const Substep& sub, State& state) override;
   void predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const override;
   void settle(Substep& sub, State& state) override {

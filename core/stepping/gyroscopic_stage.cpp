@@ -150,6 +150,15 @@ Vec3 GyroscopicStage::strike(const Substep& sub, std::size_t i, const Vec3& spin
   return spin.before;
 }
 
+void GyroscopicStage::keep_strikes(const Substep& sub) {
+  for (const int body : sub.part->moving) {
+    Spin& spin = spins_[index(body)];
+    spin.momentum += spin.struck;
+    spin.struck.setZero();
+    spin.unstruck = spin.before;
+  }
+}
+
 void GyroscopicStage::bend_rows(const Substep& sub) const {
   if (!bends_rows(sub)) return;
   const double dt = sub.dt;

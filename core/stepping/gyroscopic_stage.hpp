@@ -37,6 +37,7 @@ class GyroscopicStage {
   void begin_solve(const Substep& sub);
   [[nodiscard]] Vec3 spin_at_start(const Substep& sub, std::size_t body) const;
   Vec3 strike(const Substep& sub, std::size_t body, const Vec3& spin_at_start);
+  void keep_strikes(const Substep& sub);
   /// Sets up ("bends") rows of joints for the predicted rotation of their bodies.
   void bend_rows(const Substep& sub) const;
   /// The angular velocity that settle() will set. @param omega after the solve, world [rad/s]

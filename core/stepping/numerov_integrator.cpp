@@ -23,6 +23,10 @@ class Numerov : public Leapfrog {
   void seed(const StoredForce& of_last, const State& state, Block& block) const override;
   void extend(System& system, const Substep& sub, const State& state) override;
   void predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const override;
+  [[nodiscard]] bool starts_at_poses() const override { return false; }
+  void forget(std::size_t body, State& state) const override {
+    if (!state.acceleration.empty()) state.acceleration[body].setZero();
+  }
   void settle(Substep& /*sub*/, State& /*state*/) override {}
   void store(const Substep& sub, const State& state, const Block& block,
              StoredForce& force) const override;

@@ -16,7 +16,13 @@ namespace substep {
 /// forces until then included, and those after it act on the rebound: heights are right at any N.
 class RestitutionStage {
  public:
+  /// Impacts that are closer in time are one, of the sub-step.
+  static constexpr double kSimultaneous = 1e-3;
+
   explicit RestitutionStage(const Scene& scene) : scene_(scene), impact_(scene.bodies.size()) {}
+
+  /// The coefficient e of a contact: the larger one of its bodies.
+  [[nodiscard]] double of(const Block& contact) const;
 
   /// Modifies the bias set by the drift law. With contacts found along the motion, all rebounds are
   /// impacts that spread. A contact already struck in this sub-step separates at
@@ -50,8 +56,6 @@ class RestitutionStage {
     double time = 0.0;          // when it closes, if known [s]
     double acceleration = 0.0;  // along the normal, by forces [m/s^2]
   };
-  /// Of a pair: the maximum.
-  [[nodiscard]] double restitution_of(const Block& contact) const;
   [[nodiscard]] Impact impact(const Substep& sub, std::span<const Vec6> u,
                               const Block& block) const;
 

@@ -40,6 +40,7 @@ class Stormer : public Leapfrog {
   /// The change of acceleration is unknown when a contact with a resolved spring opens or closes.
   [[nodiscard]] bool breaks_motion(const Block& contact) const override;
   void predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const override;
+  void forget(std::size_t body, State& state) const override;
   void settle(Substep& sub, State& state) override;
   void move_poses(const Substep& sub, State& state) override;
   void synchronise(const Substep& sub, State& state) override;
@@ -68,6 +69,9 @@ namespace {
 
 // In the first sub-steps, and the first after an impact, the change is unknown.
 bool changes_are_known(const Vec6& acceleration) { return !acceleration.isZero(0.0); }
+
+// Changes of acceleration are not extrapolated to sub-steps that are longer by this factor.
+constexpr double kMostGrowth = 32.0;
 
 // dt/dt-. In the first sub-step, changes refer to a trial sub-step of the same length.
 double growth_of(double dt, double time) {
@@ -148,6 +152,8 @@ void Stormer::begin(const Substep& sub, State& state) {
   const bool known = !state.acceleration_change.empty();
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
+    const double before = state.dt_previous_of(i);
+    if (before > 0.0 && sub.dt > kMostGrowth * before) forget(i, state);
     if (!known || sub.impulse_time[i] == sub.dt || state.acceleration_change[i].isZero(0.0)) {
       continue;
     }
@@ -217,6 +223,7 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
     }
     motions_[i] = motion(w_guess, sub.dt);
   }
+  const double share = sub.dt / sub.planned_dt;  // of the gap
   for (Block& block : sub.rows) {
     if (block.is_contact()) continue;
     double gained[kMaxRows];
@@ -232,8 +239,9 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
     for (int row = 0; row < block.rows; ++row) {
       if (block.softness[row] >= kGivenForce) continue;
       // The bias of a spring belongs to a mean over the sub-step.
-      const double aimed = block.C[row] > 0.0 ? per_g * (block.bias[row] + gained[row] / sub.dt)
-                                              : per_g / sub.dt * (block.phi[row] + gained[row]);
+      const double aimed = block.C[row] > 0.0
+                               ? per_g * (block.bias[row] + gained[row] / sub.dt)
+                               : per_g / sub.dt * (share * block.phi[row] + gained[row]);
       block.bias[row] = aimed - speed[row];
       block.softness[row] *= per_g;
     }
@@ -243,6 +251,11 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
 bool Stormer::breaks_motion(const Block& contact) const {
   if (!(contact.spring_ahead[0] > 0.0)) return Leapfrog::breaks_motion(contact);
   return (contact.impulse[0] > 0.0) != contact.was_closed;
+}
+
+void Stormer::forget(std::size_t body, State& state) const {
+  if (!state.acceleration.empty()) state.acceleration[body].setZero();
+  if (!state.acceleration_change.empty()) state.acceleration_change[body].setZero();
 }
 
 void Stormer::settle(Substep& sub, State& /*state*/) {

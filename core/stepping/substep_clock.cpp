@@ -57,15 +57,28 @@ void SubstepClock::decide() {
     n_wanted_ = std::max(n_wanted_, wanted);
     capped_ = capped_ || wanted > limit;
     // Rounding must not push the quotient above the cap.
-    left_ = std::min(wanted_substeps(rest_, dt_max), limit - taken_);
+    left_ = std::min(wanted_substeps(rest_, dt_max), limit - (taken_ - shortened_));
   }
   dt_ = rest_ / left_;
+  planned_ = shortened_ > 0 ? std::max(planned_, dt_) : dt_;
 }
 
 bool SubstepClock::needs_stiffness() const {
   if (changes_mass(settings_.mode)) return true;
   if (decides_again(settings_) || watches_substeps(settings_)) return true;
   return left_ == 1 && (chooses_substeps(settings_.mode) || settings_.watch_stiffness);
+}
+
+bool SubstepClock::may_shorten() const {
+  constexpr int kFew = 4;
+  return shortens_ || shortened_ < std::max(kFew, (taken_ - shortened_ + left_) / 4);
+}
+
+void SubstepClock::shorten(double dt) {
+  if (!shortens_ && !decides_again(settings_)) rest_ = left_ * dt_;  // of equal ones
+  if (!shortens_) ++shortened_;
+  shortens_ = true;
+  dt_ = dt;
 }
 
 void SubstepClock::advance(double r, double r_rotation) {
@@ -77,11 +90,12 @@ void SubstepClock::advance(double r, double r_rotation) {
   }
   if (needs_stiffness()) r_ = remembered(settings_, r, r_);
   ++taken_;
-  if (--left_ == 0) return;
-  if (decides_again(settings_)) {
-    rest_ -= dt_;
-    decide();
-  }
+  if (!shortens_ && --left_ == 0) return;
+  if (!shortens_ && !decides_again(settings_)) return;
+  rest_ -= dt_;
+  dt_ = rest_ / left_;
+  shortens_ = false;
+  if (decides_again(settings_)) decide();
 }
 
 }  // namespace substep

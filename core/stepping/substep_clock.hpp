@@ -57,6 +57,12 @@ class SubstepClock {
   [[nodiscard]] double dt() const { return dt_; }   ///< [s]
   [[nodiscard]] int left() const { return left_; }  ///< remaining sub-steps, as currently planned
   [[nodiscard]] int taken() const { return taken_; }
+  /// True if the sub-step may be shortened, which happens at most max(4, N/4) times in a frame.
+  [[nodiscard]] bool may_shorten() const;
+  /// The length of a sub-step that no impact ends [s].
+  [[nodiscard]] double planned_dt() const { return planned_; }
+  /// Ends the sub-step after dt; the rest of the frame is divided anew. @param dt < dt() [s]
+  void shorten(double dt);
   /// True if the stiffness of this sub-step is needed later.
   [[nodiscard]] bool needs_stiffness() const;
   /// Advances to the next sub-step. @param r of this sub-step, if needed [1/s^2]
@@ -75,13 +81,16 @@ class SubstepClock {
 
   Settings settings_;
   double h_;
-  double rest_;  // unscheduled part of the frame [s]
+  double rest_;  // from the start of the sub-step, or of equal ones, to the end of the frame [s]
   double r_;
   double r_rotation_;
   double r_least_;
   double dt_ = 0.0;
-  int left_ = 1;   // sub-steps planned for rest_
-  int taken_ = 0;  // sub-steps taken in this frame
+  int left_ = 1;           // sub-steps planned for rest_
+  int taken_ = 0;          // sub-steps taken in this frame
+  int shortened_ = 0;      // how many of them
+  bool shortens_ = false;  // this one
+  double planned_ = 0.0;   // the longest planned [s]
   int n_wanted_ = 1;
   bool capped_ = false;
   bool exceeded_ = false;

@@ -30,6 +30,13 @@ class TimeIntegrator {
   virtual Vec3 strike(const Substep& /*sub*/, std::size_t /*body*/, const Vec3& spin_at_start) {
     return spin_at_start;
   }
+  /// Keeps the impacts taken so far: the bodies of the part were struck at the start of the
+  /// sub-step.
+  virtual void keep_strikes(const Substep& /*sub*/) {}
+  /// True if a sub-step may start from velocities at the time of the poses, as the first one does.
+  [[nodiscard]] virtual bool starts_at_poses() const { return true; }
+  /// Forgets the accelerations of a body that was struck.
+  virtual void forget(std::size_t /*body*/, State& /*state*/) const {}
   /// Continues the force that seeds a block.
   virtual void seed(const StoredForce& /*of_last*/, const State& /*state*/,
                     Block& /*block*/) const {}

@@ -195,7 +195,7 @@ std::vector<Broken> broken() {
       {"heavy stack, XPBD", without_limits(scenes::heavy_stack()), xpbd(4), sinks},
       {"tall stack, sweeps", without_limits(scenes::heavy_stack_tall()), pgs(16), sinks},
       {"tower of three, sweeps", tower(3, 100.0), pgs(1), sinks},
-      {"tower of three, our contacts, sweeps", tower(3, 100.0),
+      {"tower of three, our contacts, sweeps", tower(3, 1000.0),
        [] {
          Settings settings = ours();
          settings.solver = SolverKind::kPgs;

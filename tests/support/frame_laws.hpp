@@ -81,16 +81,18 @@ inline std::string broken_law(const Scene& scene, const Settings& settings, cons
     if (std::abs(q.norm() - 1.0) > 1e-5) return "orientations have length 1";
   }
   const bool all_sleep = report.asleep > 0 && report.n_substeps == 0;
-  if ((report.n_substeps < 1 && !all_sleep) || report.n_substeps > most_substeps(settings)) {
+  const bool sweeps = settings.detection == Detection::kContinuous;
+  const int most = most_substeps(settings);
+  const int shortened = sweeps ? std::max(4, most / 4) : 0;  // by impacts
+  if ((report.n_substeps < 1 && !all_sleep) || report.n_substeps > most + shortened) {
     return "1 <= N <= its cap";
   }
   const SolverWork& work = report.work;
   // Islands take separate sub-steps; islands with the same number are stepped together.
   const std::int64_t substeps = std::int64_t{report.n_substeps} * std::max(1, report.islands);
   // Contacts found along the motion: at most 8 solves, each with three softnesses, and once more if
-  // rebounds add energy, and 4 for shifts.
-  const bool sweeps = settings.detection == Detection::kContinuous;
-  const std::int64_t most_solves = sweeps ? 8 * 3 * 2 + 4 : 1;
+  // rebounds add energy, and 4 for shifts; all that for up to five lengths.
+  const std::int64_t most_solves = sweeps ? 5 * (8 * 3 * 2 + 4) : 1;
   if (work.solves - work.impacts > most_solves * substeps + 1) {
     return "solves of a sub-step are bounded";
   }

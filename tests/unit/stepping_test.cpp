@@ -53,6 +53,41 @@ TEST(SubstepClock, FillsTheWholeFrame) {
   }
 }
 
+// Impacts end sub-steps early, a limited number of times in a frame.
+TEST(SubstepClock, FillsTheWholeFrameWhereImpactsEndSubsteps) {
+  Random random(2);
+  for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kAdaptive, Mode::kCapped}) {
+    for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
+      for (int trial = 0; trial < 200; ++trial) {
+        Settings settings;
+        settings.mode = mode;
+        settings.policy = policy;
+        settings.n = 1 + trial;
+        SubstepClock clock(settings, kFrame, uniform(random, 0.0, 1e6));
+        double sum = 0.0;
+        int shortened = 0;
+        while (clock.running()) {
+          const double before = clock.dt();
+          EXPECT_LE(before, (1.0 + 1e-12) * clock.planned_dt());
+          if (uniform(random, 0.0, 1.0) < 0.5 && clock.may_shorten()) {
+            clock.shorten(uniform(random, 0.001, 0.999) * before);
+            clock.shorten(uniform(random, 0.001, 0.999) * before);  // corrected
+            ++shortened;
+          }
+          EXPECT_GT(clock.dt(), 0.0);
+          EXPECT_LE(clock.dt(), before);
+          sum += clock.dt();
+          clock.advance(uniform(random, 0.0, 1e6));
+        }
+        EXPECT_NEAR(sum, kFrame, 1e-14);
+        if (policy == Policy::kFrame) {  // else the plan changes
+          EXPECT_LE(shortened, std::max(4, (clock.taken() - shortened) / 4));
+        }
+      }
+    }
+  }
+}
+
 TEST(SubstepClock, TakesTheCeilingOfEq11) {
   Settings settings;
   settings.n_max = 1000;
@@ -319,7 +354,7 @@ TEST(Drift, FullAndSoftLawsAndOpenContacts) {
   const double dt = 1.0 / 960.0;
   const auto bias = [&](Drift law, double step, double gap) {
     blocks[1].phi[0] = gap;
-    set_drift_bias(blocks, law, tau, step);
+    set_drift_bias(blocks, law, tau, step, step);
     return std::pair(blocks[0].bias[0], blocks[1].bias[0]);
   };
   EXPECT_DOUBLE_EQ(bias(Drift::kFull, dt, -0.001).first, 0.003 / dt);

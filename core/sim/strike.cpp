@@ -1,0 +1,286 @@
+// Impacts between two sub-steps.
+//
+// A sub-step ends where bodies meet fast: it is shortened, and taken with their contacts open. The
+// next one begins with the impact, on the velocities at the time of the poses and with the
+// gradients of all joints and contacts there. Impacts of bodies on joints, and those without a
+// rebound, are then as accurate as the motion between them. What meets slowly, and what exceeds the
+// limit of SubstepClock::may_shorten(), meets within a sub-step (swept.cpp, impacts.cpp).
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constraints/grab_rows.hpp"
+#include "core/sim/lower_restitution.hpp"
+#include "core/sim/simulator_impl.hpp"
+#include "core/stepping/compliance.hpp"
+#include "core/stepping/drift.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kSoftness = 1e-5;   // of contacts, of the mobility of their rows
+constexpr double kNear = 10.0;       // largest gap of what rests, of the one that touches
+constexpr int kMostShortenings = 4;  // of one sub-step, until it ends at the impact
+constexpr int kMostPasses = 200;     // that spread, at the start of a sub-step
+
+bool is_spring(const Block& joint, int row) { return is_grab(joint) || joint.C[row] > 0.0; }
+
+void reset_row(Block& block) {
+  std::fill(std::begin(block.bias), std::end(block.bias), 0.0);
+  std::fill(std::begin(block.impulse), std::end(block.impulse), 0.0);
+  std::fill(std::begin(block.given), std::end(block.given), 0.0);
+  if (block.is_contact()) {
+    std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
+  }
+}
+
+// Springs exert no impulse.
+void set_joint(Block& joint, std::span<const Vec6> u) {
+  double speed[kMaxRows];
+  row_speeds(joint, u, speed);
+  for (int row = 0; row < joint.rows; ++row) {
+    joint.bias[row] = is_spring(joint, row) ? -speed[row] : 0.0;
+  }
+}
+
+}  // namespace
+
+// Solvers that hold joints at the end of a sub-step turn their gaps into speed, the more the
+// shorter it is.
+bool Simulator::Impl::may_shorten(const Substep& sub) const {
+  const SolverKind by = sub.settings.solver;
+  return schedule.clock().may_shorten() &&
+         (!joints || by == SolverKind::kBpp || by == SolverKind::kPgs);
+}
+
+bool Simulator::Impl::solve_until_impact(Substep& sub, FrameReport& report) {
+  const std::size_t known = blocks.size();
+  dt_before = state.dt_previous;
+  own_before.assign(state.own.begin(), state.own.end());
+  shortened = 0;
+  for (;;) {
+    ends_at = 0.0;
+    if (!solve_swept(sub, shortened < kMostShortenings && may_shorten(sub), report)) return false;
+    if (ends_at == 0.0) return true;
+    ++shortened;
+    sub.dt = ends_at;
+    schedule.shorten(sub.dt);
+    blocks.keep(known);
+    sub.rows = blocks.from(first_block);
+    for (Block& block : sub.rows) block.curved = 0.0;
+    copy(sub.u_start, state.u);
+    state.dt_previous = dt_before;
+    state.own.assign(own_before.begin(), own_before.end());
+    external_forces(sub, report);
+  }
+}
+
+// Slower ones are stopped within a sub-step: its forces change speeds by more. What rests has no
+// approach before the forces.
+bool Simulator::Impl::is_fast(const Block& block, double approach) const {
+  constexpr double kSlow = 0.1;
+  return approach > kSlow * std::max(gained_speed(block, gain), scene->contact.restitution_speed);
+}
+
+bool Simulator::Impl::arrives(const Substep& sub, const Block& block) const {
+  return !is_soft_contact(block) && is_fast(block, -normal_speed(block, sub.u_before));
+}
+
+/// The gap below which bodies touch [m].
+double Simulator::Impl::touching(const Block& block) const {
+  return SweptContacts::kAllowedOverlap *
+         contact->detector().half_width(block.body_a, block.body_b);
+}
+
+/// When a contact closes, from the start of the sub-step [s]: phi + t (J w - later forces) = 0.
+double Simulator::Impl::closing_time(const Substep& sub, const Block& block) const {
+  const double speed = normal_speed(block, w);
+  const double by_forces = (normal_speed(block, state.u) - normal_speed(block, sub.u_before)) /
+                           impulse_time_of(sub, block);
+  const double dt_previous = dt_previous_of(state, block);
+  double time = -block.phi[0] / speed;
+  for (int i = 0; i < 3; ++i) {
+    const double later = sub.integrator->force_time(dt_previous, sub.dt) -
+                         sub.integrator->force_time(dt_previous, std::clamp(time, 0.0, sub.dt));
+    const double then = speed - later * by_forces;
+    if (!(then < 0.0)) return kUnbounded;
+    time = -block.phi[0] / then;
+  }
+  return time;
+}
+
+// Rows that may close fast are open until it is known when.
+void Simulator::Impl::await_impacts(const Substep& sub, bool shortens) {
+  for (Block& block : sub.rows) {
+    if (!block.is_contact()) continue;
+    block.awaits = shortens && block.phi[0] > touching(block) && arrives(sub, block);
+  }
+}
+
+// After a sweep: ends the sub-step at its first impact, or decides which contacts wait for the next
+// one. Where the sub-step ends at an impact already, the time is corrected until they touch.
+SweptContacts::Found Simulator::Impl::settle_waiting(const Substep& sub, std::size_t solved,
+                                                     SweptContacts::Found found) {
+  const double late = (1.0 - RestitutionStage::kSimultaneous) * sub.dt;
+  const auto is_new = [&](std::size_t i, const Block& block) {
+    return block.is_contact() && (i >= solved || block.awaits);
+  };
+  double first = kUnbounded;
+  double near = 0.0;  // how accurate it must be [s]
+  bool early = false;
+  for (std::size_t i = first_block; i < blocks.size(); ++i) {
+    const Block& block = blocks.all()[i];
+    if (!is_new(i, block) || !arrives(sub, block)) continue;
+    const double time = closing_time(sub, block);
+    early = early || time < RestitutionStage::kSimultaneous * sub.dt;
+    if (time > first) continue;
+    first = time;
+    near = -0.5 * touching(block) / normal_speed(block, w);
+  }
+  const bool at_end = shortened ? std::abs(first - sub.dt) < near : first >= late;
+  if (!early && !at_end && first < kAhead * sub.dt) {
+    ends_at = first;
+    return found;
+  }
+  SweptContacts::Found left = std::min(found, SweptContacts::Found::kOverlaps);
+  for (std::size_t i = first_block; i < blocks.size(); ++i) {
+    Block& block = blocks.all()[i];
+    if (!is_new(i, block)) continue;
+    block.awaits = arrives(sub, block) && closing_time(sub, block) >= late;
+    if (!block.awaits) left = SweptContacts::Found::kContacts;
+  }
+  return left;
+}
+
+/// The speed at which a contact that touches is struck, 0 if it is not [m/s].
+double Simulator::Impl::approach_at_start(std::span<const Vec6> u, const Block& block) const {
+  if (!block.is_contact() || is_soft_contact(block)) return 0.0;
+  const double approach = -normal_speed(block, u);
+  if (!is_fast(block, approach)) return 0.0;
+  return block.phi[0] <= touching(block) ? approach : 0.0;
+}
+
+// What joints and resting contacts change of the velocities u at the start.
+void Simulator::Impl::set_reactions(const Substep& sub, std::span<const Vec6> u,
+                                    std::span<Block> rows) {
+  for (Block& block : rows) {
+    reset_row(block);
+    if (!block.is_contact()) {
+      set_joint(block, u);
+      continue;
+    }
+    if (is_soft_contact(block) || block.phi[0] > kNear * touching(block) || arrives(sub, block)) {
+      block.bias[0] = kStaysOpen;
+    }
+  }
+}
+
+// One simultaneous impact of all contacts that are struck. Others that would rebound are open: the
+// impact spreads to them. @return true if there are any
+bool Simulator::Impl::set_hits(std::span<const Vec6> u, double share, std::span<Block> rows) {
+  bool any = false;
+  for (Block& block : rows) {
+    reset_row(block);
+    if (!block.is_contact()) {
+      set_joint(block, u);
+      continue;
+    }
+    const double approach = approach_at_start(u, block);
+    const double e = restitution ? restitution->of(block) : 0.0;
+    if (approach > 0.0) {
+      any = true;
+      // What returns within the sub-step rests.
+      const bool rebounds =
+          approach >= scene->contact.restitution_speed && e * approach > gained_speed(block, gain);
+      block.bias[0] = rebounds ? -share * e * approach : 0.0;
+    } else if (is_soft_contact(block) || block.phi[0] > kNear * touching(block) || e > 0.0) {
+      block.bias[0] = kStaysOpen;
+    }
+  }
+  return any;
+}
+
+bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
+  u_meeting.assign(sub.u_before.begin(), sub.u_before.end());
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    u_meeting[i].tail<3>() = sub.integrator->spin_at_start(sub, i);
+    u_meeting[i] += (1.0 - 0.5 * sub.dt / sub.impulse_time[i]) * gain[i];
+  }
+  const auto struck = [&](const Block& block) {
+    return block.is_contact() && block.phi[0] <= touching(block) && arrives(sub, block);
+  };
+  if (std::none_of(sub.rows.begin(), sub.rows.end(), struck)) return true;
+  striking.clear();
+  for (const Block& row : sub.rows) striking.append() = row;
+  contact_softness = kSoftness;
+  set_softness(sub, striking.all());
+  const std::span<const InverseMass> masses = masses_of_impacts(sub);
+  set_reactions(sub, u_meeting, striking.all());
+  if (!solve_impacts(sub, striking.all(), u_meeting, masses, report)) return false;
+  u_unforced.assign(u_meeting.begin(), u_meeting.end());  // before the impacts
+  const auto solve = [&](double share) {
+    copy(u_star, u_meeting);
+    set_hits(u_meeting, share, striking.all());
+    return solve_impacts(sub, striking.all(), u_meeting, masses, report);
+  };
+  const auto work = [&] {
+    impact_solver().find_impulses(striking.all());
+    return work_of_contacts(sub, striking.all(), u_star, u_meeting, false);
+  };
+  u_star.assign(u_meeting.begin(), u_meeting.end());
+  for (int i = 0; i < kMostPasses && set_hits(u_star, 1.0, striking.all()); ++i) {
+    if (!solve(1.0)) return false;
+    const ContactWork full = work();
+    if (full.adds()) {
+      const auto share = lower_restitution(full, solve, work, u_meeting, u_rebounding);
+      if (!share) return false;
+      lower_to(*share);
+    }
+    copy(u_meeting, u_star);
+  }
+  start_from(sub, u_unforced, u_star);
+  return true;
+}
+
+// After the impacts. The velocities of the sub-step before are of its middle, and what joints and
+// contacts exert has changed since: the sub-step starts from those at the time of the poses. Where
+// springs act, which reactions do not contain, only the change is added.
+void Simulator::Impl::start_from(Substep& sub, std::span<const Vec6> u_minus,
+                                 std::span<const Vec6> u_plus) {
+  const bool springs = std::any_of(sub.rows.begin(), sub.rows.end(), [](const Block& block) {
+    if (block.is_contact()) return is_soft_contact(block);
+    return is_spring(block, 0) || is_spring(block, block.rows - 1);
+  });
+  const bool starts = !springs && sub.integrator->starts_at_poses();
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    const Vec6 acceleration = 1.0 / sub.impulse_time[i] * gain[i];
+    Vec6 after = u_plus[i];
+    if (starts) {
+      set_dt_previous(body, 0.0);
+      sub.impulse_time[i] = sub.integrator->force_time(0.0, sub.dt);
+      after -= (sub.impulse_time[i] - 0.5 * sub.dt) * acceleration;
+    } else {
+      Vec6 before = sub.u_before[i];
+      before.tail<3>() = sub.integrator->spin_at_start(sub, i);
+      after += before - u_minus[i];
+    }
+    sub.u_before[i].head<3>() = after.head<3>();
+    sub.u_before[i].tail<3>() = sub.integrator->strike(sub, i, after.tail<3>());
+    gain[i] = sub.impulse_time[i] * acceleration;
+    state.u[i] = sub.u_before[i] + gain[i];
+    if (starts || u_plus[i] != u_minus[i]) sub.integrator->forget(i, state);
+  }
+  sub.integrator->keep_strikes(sub);
+}
+
+void Simulator::Impl::set_dt_previous(int body, double dt) {
+  if (state.own.empty()) {
+    state.dt_previous = dt;
+  } else {
+    state.own[index(body)].dt_previous = dt;
+  }
+}
+
+}  // namespace substep

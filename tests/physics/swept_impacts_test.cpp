@@ -92,8 +92,8 @@ TEST(SweptImpacts, RestingBodiesReportNoFall) {
   }
 }
 
-/// A box of unequal moments that tumbles fast onto a floor, or two that hit each other in space.
-Scene tumbling(unsigned seed, double e, double friction, bool in_space) {
+/// A box of unequal moments that tumbles fast onto a floor, or pairs that hit each other in space.
+Scene tumbling(unsigned seed, double e, double friction, bool in_space, int pairs = 1) {
   std::mt19937_64 random(seed);
   const auto number = [&](double least, double most) {
     return least + (most - least) * (static_cast<double>(random() >> 11) * 0x1p-53);
@@ -101,10 +101,12 @@ Scene tumbling(unsigned seed, double e, double friction, bool in_space) {
   SceneBuilder builder("tumbling");
   builder.scene().gravity = in_space ? Vec3(Vec3::Zero()) : Vec3(0.0, -kGravity, 0.0);
   if (!in_space) builder.body(builder.add_fixed(Plane{}, Vec3::Zero())).friction = friction;
-  for (int i = 0; i < (in_space ? 2 : 1); ++i) {
+  for (int box_index = 0; box_index < (in_space ? 2 * pairs : 1); ++box_index) {
+    const int i = box_index % 2;
+    const double apart = 10.0 * (box_index / 2);
     const Vec3 half{0.3, number(0.03, 0.3), number(0.03, 0.3)};
     const int box =
-        builder.add_body(Box{half}, number(0.5, 2.0), {1.2 * i, in_space ? 0.0 : 1.0, 0.0});
+        builder.add_body(Box{half}, number(0.5, 2.0), {1.2 * i, in_space ? 0.0 : 1.0, apart});
     Body& body = builder.body(box);
     body.orientation =
         Quat{number(-1, 1), number(-1, 1), number(-1, 1), number(-1, 1)}.normalized();
@@ -138,6 +140,30 @@ TEST(SweptImpacts, TumblingBoxesKeepTheirEnergyInElasticImpacts) {
         }
       }
       EXPECT_GT(impacts, in_space ? 20 : 100);
+    }
+  }
+}
+
+// More impacts in a frame than may end a sub-step: most happen within one.
+TEST(SweptImpacts, ManyImpactsInAFrameKeepTheEnergy) {
+  const Scene scene = tumbling(3, 1.0, 0.0, true, 60);
+  for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
+    for (const int n : {0, 8}) {  // 0: adaptive
+      SCOPED_TRACE(n);
+      Settings settings = steady_at(n);
+      settings.integrator = integrator;
+      double energy = 0.0;
+      std::int64_t impacts = 0;
+      std::int64_t most = 0;  // in a frame
+      const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+        if (report.frame == 1) energy = report.energy;
+        impacts += report.work.impacts;
+        most = std::max(most, std::int64_t{report.work.impacts});
+        EXPECT_NEAR(report.energy, energy, 1e-3 * energy);
+      };
+      run(scene, settings, 0.3, every, false);
+      EXPECT_GT(impacts, 40);
+      EXPECT_GT(most, 12);
     }
   }
 }

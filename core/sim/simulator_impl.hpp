@@ -120,7 +120,8 @@ struct Simulator::Impl {
   bool solve_until_impact(Substep& sub, FrameReport& report);
   bool may_shorten(const Substep& sub) const;
   /// True if a contact that closes at this speed is an impact. @param approach [m/s]
-  bool is_fast(const Block& contact, double approach) const;
+  bool is_fast(const Substep& sub, const Block& contact, double approach) const;
+  double speed_by_forces(const Substep& sub, const Block& contact) const;  // [m/s]
   bool arrives(const Substep& sub, const Block& contact) const;  // fast, before the forces
   double touching(const Block& contact) const;                   // the gap of bodies that touch [m]
   double closing_time(const Substep& sub, const Block& contact) const;
@@ -128,11 +129,12 @@ struct Simulator::Impl {
   SweptContacts::Found settle_waiting(const Substep& sub, std::size_t solved,
                                       SweptContacts::Found found);
   bool strike(Substep& sub, FrameReport& report);
-  double approach_at_start(std::span<const Vec6> u, const Block& block) const;
+  double approach_at_start(const Substep& sub, std::span<const Vec6> u, const Block& block) const;
   void set_reactions(const Substep& sub, std::span<const Vec6> u, std::span<Block> rows);
-  bool set_hits(std::span<const Vec6> u, double share, std::span<Block> rows);
+  bool set_hits(const Substep& sub, std::span<const Vec6> u, double share, std::span<Block> rows);
   void start_from(Substep& sub, std::span<const Vec6> u_minus, std::span<const Vec6> u_plus);
   void set_dt_previous(int body, double dt);
+  void close_struck(const Substep& sub) const;
   // swept.cpp
   bool sweeps_contacts(const Substep& sub) const;
   bool solve_swept(Substep& sub, bool shortens, FrameReport& report);
@@ -262,6 +264,7 @@ struct Simulator::Impl {
   double ends_at = 0.0;                  // an impact ends the sub-step [s]; 0: none
   double dt_before = 0.0;                // State::dt_previous before a strike [s]
   std::vector<OwnSubstep> own_before;    // State::own, likewise
+  bool strikes = false;                  // this sub-step begins with an impact
   int shortened = 0;                     // how often this sub-step was shortened
   SolveStatus last_solve = SolveStatus::kSolved;
   Blocks parting;  // rows that part overlaps

@@ -48,8 +48,12 @@ void set_joint(Block& joint, std::span<const Vec6> u) {
 // Solvers that hold joints at the end of a sub-step turn their gaps into speed, the more the
 // shorter it is.
 bool Simulator::Impl::may_shorten(const Substep& sub) const {
+  // All bodies of a part take the shortened sub-step: crowds cannot afford many.
+  constexpr int kFew = 4;
+  constexpr int kBodies = 64;
+  const int few = std::min(kFew, kBodies / static_cast<int>(sub.part->moving.size()));
   const SolverKind by = sub.settings.solver;
-  return schedule.clock().may_shorten() &&
+  return schedule.clock().may_shorten(few) &&
          (!joints || by == SolverKind::kBpp || by == SolverKind::kPgs);
 }
 
@@ -75,15 +79,20 @@ bool Simulator::Impl::solve_until_impact(Substep& sub, FrameReport& report) {
   }
 }
 
+/// Speed that the forces of a whole sub-step give to the bodies of a contact [m/s].
+double Simulator::Impl::speed_by_forces(const Substep& sub, const Block& block) const {
+  return gained_speed(block, gain) * sub.planned_dt / impulse_time_of(sub, block);
+}
+
 // Slower ones are stopped within a sub-step: its forces change speeds by more. What rests has no
 // approach before the forces.
-bool Simulator::Impl::is_fast(const Block& block, double approach) const {
+bool Simulator::Impl::is_fast(const Substep& sub, const Block& block, double approach) const {
   constexpr double kSlow = 0.1;
-  return approach > kSlow * std::max(gained_speed(block, gain), scene->contact.restitution_speed);
+  return approach > kSlow * std::max(speed_by_forces(sub, block), scene->contact.restitution_speed);
 }
 
 bool Simulator::Impl::arrives(const Substep& sub, const Block& block) const {
-  return !is_soft_contact(block) && is_fast(block, -normal_speed(block, sub.u_before));
+  return !is_soft_contact(block) && is_fast(sub, block, -normal_speed(block, sub.u_before));
 }
 
 /// The gap below which bodies touch [m].
@@ -153,10 +162,11 @@ SweptContacts::Found Simulator::Impl::settle_waiting(const Substep& sub, std::si
 }
 
 /// The speed at which a contact that touches is struck, 0 if it is not [m/s].
-double Simulator::Impl::approach_at_start(std::span<const Vec6> u, const Block& block) const {
+double Simulator::Impl::approach_at_start(const Substep& sub, std::span<const Vec6> u,
+                                          const Block& block) const {
   if (!block.is_contact() || is_soft_contact(block)) return 0.0;
   const double approach = -normal_speed(block, u);
-  if (!is_fast(block, approach)) return 0.0;
+  if (!is_fast(sub, block, approach)) return 0.0;
   return block.phi[0] <= touching(block) ? approach : 0.0;
 }
 
@@ -177,7 +187,8 @@ void Simulator::Impl::set_reactions(const Substep& sub, std::span<const Vec6> u,
 
 // One simultaneous impact of all contacts that are struck. Others that would rebound are open: the
 // impact spreads to them. @return true if there are any
-bool Simulator::Impl::set_hits(std::span<const Vec6> u, double share, std::span<Block> rows) {
+bool Simulator::Impl::set_hits(const Substep& sub, std::span<const Vec6> u, double share,
+                               std::span<Block> rows) {
   bool any = false;
   for (Block& block : rows) {
     reset_row(block);
@@ -185,13 +196,13 @@ bool Simulator::Impl::set_hits(std::span<const Vec6> u, double share, std::span<
       set_joint(block, u);
       continue;
     }
-    const double approach = approach_at_start(u, block);
+    const double approach = approach_at_start(sub, u, block);
     const double e = restitution ? restitution->of(block) : 0.0;
     if (approach > 0.0) {
       any = true;
       // What returns within the sub-step rests.
-      const bool rebounds =
-          approach >= scene->contact.restitution_speed && e * approach > gained_speed(block, gain);
+      const bool rebounds = approach >= scene->contact.restitution_speed &&
+                            e * approach > speed_by_forces(sub, block);
       block.bias[0] = rebounds ? -share * e * approach : 0.0;
     } else if (is_soft_contact(block) || block.phi[0] > kNear * touching(block) || e > 0.0) {
       block.bias[0] = kStaysOpen;
@@ -221,7 +232,7 @@ bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
   u_unforced.assign(u_meeting.begin(), u_meeting.end());  // before the impacts
   const auto solve = [&](double share) {
     copy(u_star, u_meeting);
-    set_hits(u_meeting, share, striking.all());
+    set_hits(sub, u_meeting, share, striking.all());
     return solve_impacts(sub, striking.all(), u_meeting, masses, report);
   };
   const auto work = [&] {
@@ -229,7 +240,7 @@ bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
     return work_of_contacts(sub, striking.all(), u_star, u_meeting, false);
   };
   u_star.assign(u_meeting.begin(), u_meeting.end());
-  for (int i = 0; i < kMostPasses && set_hits(u_star, 1.0, striking.all()); ++i) {
+  for (int i = 0; i < kMostPasses && set_hits(sub, u_star, 1.0, striking.all()); ++i) {
     if (!solve(1.0)) return false;
     const ContactWork full = work();
     if (full.adds()) {
@@ -240,6 +251,7 @@ bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
     copy(u_meeting, u_star);
   }
   start_from(sub, u_unforced, u_star);
+  strikes = true;
   return true;
 }
 
@@ -260,7 +272,6 @@ void Simulator::Impl::start_from(Substep& sub, std::span<const Vec6> u_minus,
     if (starts) {
       set_dt_previous(body, 0.0);
       sub.impulse_time[i] = sub.integrator->force_time(0.0, sub.dt);
-      after -= (sub.impulse_time[i] - 0.5 * sub.dt) * acceleration;
     } else {
       Vec6 before = sub.u_before[i];
       before.tail<3>() = sub.integrator->spin_at_start(sub, i);
@@ -273,6 +284,13 @@ void Simulator::Impl::start_from(Substep& sub, std::span<const Vec6> u_minus,
     if (starts || u_plus[i] != u_minus[i]) sub.integrator->forget(i, state);
   }
   sub.integrator->keep_strikes(sub);
+}
+
+// Contacts that touch after a strike rest, or separate: their forces contain no impact.
+void Simulator::Impl::close_struck(const Substep& sub) const {
+  for (Block& block : sub.rows) {
+    if (block.is_contact() && block.phi[0] <= kNear * touching(block)) block.was_closed = true;
+  }
 }
 
 void Simulator::Impl::set_dt_previous(int body, double dt) {

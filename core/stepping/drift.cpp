@@ -97,6 +97,7 @@ void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
     const double time = block.was_closed ? planned_dt : dt;
     block.bias[0] = std::max(std::max(block.phi[0], 0.0) / time + normal_speed(block, shift), 0.0);
     if (!block.was_closed) continue;
+    if (!(block.impulse[0] > 0.0)) continue;  // it has just been struck
     const double yields = block.softness[0] * block.impulse[0];
     const double share = std::clamp(kYields * gained_speed(block, gain) / yields, kRigid, 1.0);
     for (int row = 0; row < block.rows; ++row) {

@@ -17,6 +17,7 @@ class Euler : public TimeIntegrator {
     if (gyroscopic_) gyroscopic_->begin(sub, state);
   }
   void begin_solve(const Substep& sub) override;
+  [[nodiscard]] bool starts_at_poses() const override { return false; }
   [[nodiscard]] Vec3 spin_at_start(const Substep& sub, std::size_t body) const override;
   Vec3 strike(const Substep& sub, std::size_t body, const Vec3& spin_at_start) override;
   void keep_strikes(const Substep& sub) override;

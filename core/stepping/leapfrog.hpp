@@ -13,6 +13,8 @@ class Leapfrog : public Euler {
     return 0.5 * (dt_previous + dt);
   }
 
+  [[nodiscard]] bool starts_at_poses() const override { return true; }
+
  protected:
   [[nodiscard]] double share_ahead(double dt_previous, double dt) const override {
     return dt / (dt_previous + dt);

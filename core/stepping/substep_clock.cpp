@@ -69,9 +69,9 @@ bool SubstepClock::needs_stiffness() const {
   return left_ == 1 && (chooses_substeps(settings_.mode) || settings_.watch_stiffness);
 }
 
-bool SubstepClock::may_shorten() const {
-  constexpr int kFew = 4;
-  return shortens_ || shortened_ < std::max(kFew, (taken_ - shortened_ + left_) / 4);
+bool SubstepClock::may_shorten(int few) const {
+  const int planned = taken_ - shortened_ + left_;
+  return shortens_ || shortened_ < std::max(few, planned / 4);
 }
 
 void SubstepClock::shorten(double dt) {

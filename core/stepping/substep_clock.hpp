@@ -57,8 +57,8 @@ class SubstepClock {
   [[nodiscard]] double dt() const { return dt_; }   ///< [s]
   [[nodiscard]] int left() const { return left_; }  ///< remaining sub-steps, as currently planned
   [[nodiscard]] int taken() const { return taken_; }
-  /// True if the sub-step may be shortened, which happens at most max(4, N/4) times in a frame.
-  [[nodiscard]] bool may_shorten() const;
+  /// True if the sub-step may be shortened, which happens at most max(few, N/4) times in a frame.
+  [[nodiscard]] bool may_shorten(int few) const;
   /// The length of a sub-step that no impact ends [s].
   [[nodiscard]] double planned_dt() const { return planned_; }
   /// Ends the sub-step after dt; the rest of the frame is divided anew. @param dt < dt() [s]

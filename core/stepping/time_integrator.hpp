@@ -34,7 +34,7 @@ class TimeIntegrator {
   /// sub-step.
   virtual void keep_strikes(const Substep& /*sub*/) {}
   /// True if a sub-step may start from velocities at the time of the poses, as the first one does.
-  [[nodiscard]] virtual bool starts_at_poses() const { return true; }
+  [[nodiscard]] virtual bool starts_at_poses() const = 0;
   /// Forgets the accelerations of a body that was struck.
   virtual void forget(std::size_t /*body*/, State& /*state*/) const {}
   /// Continues the force that seeds a block.

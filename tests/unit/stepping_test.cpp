@@ -69,7 +69,7 @@ TEST(SubstepClock, FillsTheWholeFrameWhereImpactsEndSubsteps) {
         while (clock.running()) {
           const double before = clock.dt();
           EXPECT_LE(before, (1.0 + 1e-12) * clock.planned_dt());
-          if (uniform(random, 0.0, 1.0) < 0.5 && clock.may_shorten()) {
+          if (uniform(random, 0.0, 1.0) < 0.5 && clock.may_shorten(4)) {
             clock.shorten(uniform(random, 0.001, 0.999) * before);
             clock.shorten(uniform(random, 0.001, 0.999) * before);  // corrected
             ++shortened;

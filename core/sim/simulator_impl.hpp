@@ -248,24 +248,27 @@ struct Simulator::Impl {
   std::vector<RowGaps> corrected;       // by the last of them
 
   // With contacts found along the motion.
-  std::unique_ptr<SweptContacts> swept;  // built on first use
-  std::vector<Vec6> u_forced;            // after the forces, before rows and impacts
-  std::vector<Vec6> u_unforced;          // before the forces and impacts
-  std::vector<Vec6> u_rebounding;        // after impacts that add no energy, and forces
-  bool separates = true;                 // what was struck
-  double exchanged = 0.0;                // by impacts of the last solve [J]
-  int lowered = 0;                       // impacts of the last solve with a lower e
-  double lowered_to = 1.0;               // their smallest share of e [-]
-  std::vector<Vec6> gain;                // by the forces of the sub-step
-  std::vector<Vec6> shift;               // of the motion beyond u: impacts, overlaps [m/s, rad/s]
-  double contact_softness = 0.0;         // of the mobility of a row [-]
-  std::vector<Vec6> u_meeting;           // at the time of the poses, when bodies are struck
-  Blocks striking;                       // rows of impacts at the start of the sub-step
-  double ends_at = 0.0;                  // an impact ends the sub-step [s]; 0: none
-  double dt_before = 0.0;                // State::dt_previous before a strike [s]
-  std::vector<OwnSubstep> own_before;    // State::own, likewise
-  bool strikes = false;                  // this sub-step begins with an impact
-  int shortened = 0;                     // how often this sub-step was shortened
+  std::unique_ptr<SweptContacts> swept;   // built on first use
+  std::vector<Vec6> u_forced;             // after the forces, before rows and impacts
+  std::vector<Vec6> u_unforced;           // before the forces and impacts
+  std::vector<Vec6> u_rebounding;         // after impacts that add no energy, and forces
+  bool separates = true;                  // what was struck
+  double exchanged = 0.0;                 // by impacts of the last solve [J]
+  int lowered = 0;                        // impacts of the last solve with a lower e
+  double lowered_to = 1.0;                // their smallest share of e [-]
+  std::vector<Vec6> gain;                 // by the forces of the sub-step
+  std::vector<Vec6> shift;                // of the motion beyond u: impacts, overlaps [m/s, rad/s]
+  double contact_softness = 0.0;          // of the mobility of a row [-]
+  std::vector<Vec6> u_meeting;            // at the time of the poses, when bodies are struck
+  Blocks striking;                        // rows of impacts at the start of the sub-step
+  double ends_at = 0.0;                   // an impact ends the sub-step [s]; 0: none
+  double dt_before = 0.0;                 // State::dt_previous before a strike [s]
+  std::vector<OwnSubstep> own_before;     // State::own, likewise
+  std::vector<Vec6> acceleration_before;  // State::acceleration, likewise
+  std::vector<Vec6> change_before;        // State::acceleration_change, likewise
+  double whole_dt = 0.0;                  // length of the sub-step if no impact ends it [s]
+  bool strikes = false;                   // this sub-step begins with an impact
+  int shortened = 0;                      // how often this sub-step was shortened
   SolveStatus last_solve = SolveStatus::kSolved;
   Blocks parting;  // rows that part overlaps
 

@@ -34,12 +34,13 @@ void reset_row(Block& block) {
   }
 }
 
-// Springs exert no impulse.
+// Springs keep their speed, a grab exerts no impulse.
 void set_joint(Block& joint, std::span<const Vec6> u) {
   double speed[kMaxRows];
   row_speeds(joint, u, speed);
   for (int row = 0; row < joint.rows; ++row) {
     joint.bias[row] = is_spring(joint, row) ? -speed[row] : 0.0;
+    if (is_grab(joint)) give_force(joint, row, 0.0);
   }
 }
 
@@ -51,7 +52,8 @@ bool Simulator::Impl::may_shorten(const Substep& sub) const {
   // All bodies of a part take the shortened sub-step: crowds cannot afford many.
   constexpr int kFew = 4;
   constexpr int kBodies = 64;
-  const int few = std::min(kFew, kBodies / static_cast<int>(sub.part->moving.size()));
+  const auto bodies = static_cast<int>(std::max(std::size_t{1}, sub.part->moving.size()));
+  const int few = std::min(kFew, kBodies / bodies);
   const SolverKind by = sub.settings.solver;
   return schedule.clock().may_shorten(few) &&
          (!joints || by == SolverKind::kBpp || by == SolverKind::kPgs);
@@ -61,6 +63,9 @@ bool Simulator::Impl::solve_until_impact(Substep& sub, FrameReport& report) {
   const std::size_t known = blocks.size();
   dt_before = state.dt_previous;
   own_before.assign(state.own.begin(), state.own.end());
+  acceleration_before.assign(state.acceleration.begin(), state.acceleration.end());
+  change_before.assign(state.acceleration_change.begin(), state.acceleration_change.end());
+  whole_dt = sub.dt;
   shortened = 0;
   for (;;) {
     ends_at = 0.0;
@@ -75,6 +80,8 @@ bool Simulator::Impl::solve_until_impact(Substep& sub, FrameReport& report) {
     copy(sub.u_start, state.u);
     state.dt_previous = dt_before;
     state.own.assign(own_before.begin(), own_before.end());
+    state.acceleration.assign(acceleration_before.begin(), acceleration_before.end());
+    state.acceleration_change.assign(change_before.begin(), change_before.end());
     external_forces(sub, report);
   }
 }
@@ -135,7 +142,7 @@ SweptContacts::Found Simulator::Impl::settle_waiting(const Substep& sub, std::si
     return block.is_contact() && (i >= solved || block.awaits);
   };
   double first = kUnbounded;
-  double near = 0.0;  // how accurate it must be [s]
+  double tolerance = 0.0;  // of the time, where the sub-step ends at it already [s]
   bool early = false;
   for (std::size_t i = first_block; i < blocks.size(); ++i) {
     const Block& block = blocks.all()[i];
@@ -144,10 +151,12 @@ SweptContacts::Found Simulator::Impl::settle_waiting(const Substep& sub, std::si
     early = early || time < RestitutionStage::kSimultaneous * sub.dt;
     if (time > first) continue;
     first = time;
-    near = -0.5 * touching(block) / normal_speed(block, w);
+    tolerance = -0.5 * touching(block) / normal_speed(block, w);
   }
-  const bool at_end = shortened ? std::abs(first - sub.dt) < near : first >= late;
-  if (!early && !at_end && first < kAhead * sub.dt) {
+  const bool at_end = shortened ? std::abs(first - sub.dt) < tolerance : first >= late;
+  const double latest =
+      std::min(kAhead * sub.dt, (1.0 - RestitutionStage::kSimultaneous) * whole_dt);
+  if (!early && !at_end && first < latest) {
     ends_at = first;
     return found;
   }

@@ -238,6 +238,7 @@ bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report
   // The forces of an impact do not last, nor those that stop the rest of it in a short sub-step.
   if (sweeps_contacts(sub) && (strikes || !sub.smooth) && known) {
     report.stages.stiffness = true;  // the last one is kept
+    bound = StiffnessStage::bound(*scene, sub.part->bodies, state.k);
     return true;
   }
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);

@@ -66,18 +66,16 @@ CardPlace card_beside(const Session& session, const Viewport& viewport, ImVec2 s
   const float top = v.y + kCaption;
   const float over_controls = 12.0F + 0.5F * size.x;
   const float over_plots = ImGui::GetIO().DisplaySize.x - over_controls;
-  const std::vector<CardPlace> places{below,
-                                      {below.y, 1.0F, left},
-                                      {below.y, 1.0F, right},
-                                      {top, 0.0F, left},
-                                      {top, 0.0F, right},
-                                      {below.y, 1.0F, over_controls},
-                                      {below.y, 1.0F, over_plots}};
+  // By their upper edges: a card that grows does not move what it shows already.
+  const float low = below.y - size.y;
+  const std::vector<CardPlace> places{
+      {low, 0.0F, below.x}, {low, 0.0F, left},          {low, 0.0F, right},     {top, 0.0F, left},
+      {top, 0.0F, right},   {low, 0.0F, over_controls}, {low, 0.0F, over_plots}};
   if (which < 0) {
     float least = 0.0F;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const CardPlace& place = places[i];
-      const ImVec2 min(place.x - 0.5F * size.x, place.y - place.pivot * size.y);
+      const ImVec2 min(place.x - 0.5F * size.x, place.y);
       const float area = covered(session, viewport, min, min + size);
       if (i > 0 && area >= least) continue;
       least = area;

@@ -18,6 +18,19 @@ std::string duration_text(const Scene& scene, const RemedyTrials& trials) {
   return plain_number(static_cast<double>(trials.trial().frames) * scene.frame) + " s";
 }
 
+/// One line above the remedies that hold.
+std::string trials_text(const RemedyTrials& trials, std::size_t hold, const std::string& duration) {
+  if (hold > 0) {
+    return "Tried from the start, holds for " + duration +
+           (trials.done() ? ":" : "; others are being tried:");
+  }
+  if (!trials.done()) return "Trying remedies for " + duration + " ...";
+  if (trials.failed() == 1) return "The remedy that was tried does not hold for " + duration + ".";
+  if (trials.failed() == 0) return "No remedy is known.";
+  return "None of the " + std::to_string(trials.failed()) + " remedies that were tried holds for " +
+         duration + ".";
+}
+
 /// A button: restarts the same scene with the remedy.
 void reset_with(const Look& look, Lab& lab, const Remedy& remedy, const std::string& duration,
                 ButtonKind kind) {
@@ -43,7 +56,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
   if (desk.failure_run != lab.run_count) desk.failure_place = -1;
   desk.failure_run = lab.run_count;
   if (desk.failure_place < 0 && !viewport.view.camera.at_rest()) return;  // first what failed
-  constexpr ImVec2 kSize(380.0F, 220.0F);  // with the maximum number of remedies
+  constexpr ImVec2 kSize(380.0F, 256.0F);  // with the maximum number of remedies
   const CardPlace place = card_beside(lab.session, viewport, kSize, desk.failure_place);
   if (begin_card(look, "##failure", kSize.x, place)) {
     card_title(look, look.theme->orange, Icon::kCross,
@@ -63,29 +76,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
       what += " is no longer finite. The last finite state is shown.";
     }
     label(look.fonts.small, look.theme->dim, what);
-    if (const RemedyTrials* trials = lab.remedy_trials()) {
-      const std::vector<Remedy> hold = trials->hold();  // a button may start another run
-      const std::string duration = duration_text(lab.session.scene(), *trials);
-      if (!trials->done()) {
-        label(look.fonts.small, look.theme->dim, "Trying remedies for " + duration + " ...");
-      } else if (hold.empty() && trials->failed() > 0) {
-        label(look.fonts.small, look.theme->dim,
-              trials->failed() == 1
-                  ? "The remedy that was tried does not hold for " + duration + "."
-                  : "None of the " + std::to_string(trials->failed()) +
-                        " remedies that were tried holds for " + duration + ".");
-      }
-      if (!hold.empty()) {
-        label(look.fonts.small, look.theme->dim,
-              "Tried from the start, holds for " + duration + ":");
-      }
-      auto kind = ButtonKind::kPrimary;  // for the most likely remedy
-      const std::size_t most = v.height > 400.0F ? 3 : 1;
-      for (std::size_t i = 0; i < std::min(hold.size(), most); ++i) {
-        reset_with(look, lab, hold[i], duration, kind);
-        kind = ButtonKind::kPlain;
-      }
-    }
+    // Remedies are appended as they are found: nothing moves under the pointer.
     if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to the start (R)")) {
       lab.reset();
@@ -99,6 +90,17 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
     if (button(look, "second", Icon::kNone, "1 s before", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to one second before the failure; change a setting and continue")) {
       lab.session.go_to_last_good(1.0);
+    }
+    if (const RemedyTrials* trials = lab.remedy_trials()) {
+      const std::vector<Remedy> hold = trials->hold();  // a button may start another run
+      const std::string duration = duration_text(lab.session.scene(), *trials);
+      label(look.fonts.small, look.theme->dim, trials_text(*trials, hold.size(), duration));
+      auto kind = ButtonKind::kPrimary;  // for the most likely remedy
+      const std::size_t most = v.height > 400.0F ? 3 : 1;
+      for (std::size_t i = 0; i < std::min(hold.size(), most); ++i) {
+        reset_with(look, lab, hold[i], duration, kind);
+        kind = ButtonKind::kPlain;
+      }
     }
     if (card_closed(look)) desk.dismissed_failure = lab.run_count;
   }

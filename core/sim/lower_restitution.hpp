@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/math/types.hpp"
-#include "core/model/state.hpp"
 
 namespace substep {
 

@@ -129,13 +129,14 @@ struct Simulator::Impl {
   SweptContacts::Found settle_waiting(const Substep& sub, std::size_t solved,
                                       SweptContacts::Found found);
   bool strike(Substep& sub, FrameReport& report);
-  double approach_at_start(const Substep& sub, std::span<const Vec6> u, const Block& block) const;
   void set_reactions(const Substep& sub, std::span<const Vec6> u, std::span<Block> rows);
   bool set_hits(const Substep& sub, std::span<const Vec6> u, double share, std::span<Block> rows);
   void start_from(Substep& sub, std::span<const Vec6> u_minus, std::span<const Vec6> u_plus);
   void set_dt_previous(int body, double dt);
   void close_struck(const Substep& sub) const;
   // swept.cpp
+  /// Softness of contacts that are not springs, of the mobility of their rows.
+  static constexpr double kRigidContact = 1e-5;
   bool sweeps_contacts(const Substep& sub) const;
   bool solve_swept(Substep& sub, bool shortens, FrameReport& report);
   bool solve_softly(Substep& sub, FrameReport& report);
@@ -259,15 +260,16 @@ struct Simulator::Impl {
   std::vector<Vec6> gain;                 // by the forces of the sub-step
   std::vector<Vec6> shift;                // of the motion beyond u: impacts, overlaps [m/s, rad/s]
   double contact_softness = 0.0;          // of the mobility of a row [-]
-  std::vector<Vec6> u_meeting;            // at the time of the poses, when bodies are struck
-  Blocks striking;                        // rows of impacts at the start of the sub-step
+  std::vector<Vec6> u_meeting;            // at the time of the poses, at the start
+  std::vector<Vec6> u_arriving;           // likewise, with reactions, before the impacts
+  Blocks impact_rows;                     // rows of impacts at the start of the sub-step
   double ends_at = 0.0;                   // an impact ends the sub-step [s]; 0: none
   double dt_before = 0.0;                 // State::dt_previous before a strike [s]
   std::vector<OwnSubstep> own_before;     // State::own, likewise
   std::vector<Vec6> acceleration_before;  // State::acceleration, likewise
   std::vector<Vec6> change_before;        // State::acceleration_change, likewise
   double whole_dt = 0.0;                  // length of the sub-step if no impact ends it [s]
-  bool strikes = false;                   // this sub-step begins with an impact
+  bool begins_with_impact = false;        // this sub-step begins with an impact
   int shortened = 0;                      // how often this sub-step was shortened
   SolveStatus last_solve = SolveStatus::kSolved;
   Blocks parting;  // rows that part overlaps

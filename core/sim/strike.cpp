@@ -18,10 +18,9 @@
 namespace substep {
 namespace {
 
-constexpr double kSoftness = 1e-5;   // of contacts, of the mobility of their rows
-constexpr double kNear = 10.0;       // largest gap of what rests, of the one that touches
+constexpr double kResting = 10.0;    // largest gap of what rests, in units of touching()
 constexpr int kMostShortenings = 4;  // of one sub-step, until it ends at the impact
-constexpr int kMostPasses = 200;     // that spread, at the start of a sub-step
+constexpr int kMostPasses = 200;     // in which impacts spread, at the start of a sub-step
 
 bool is_spring(const Block& joint, int row) { return is_grab(joint) || joint.C[row] > 0.0; }
 
@@ -88,16 +87,20 @@ bool Simulator::Impl::solve_until_impact(Substep& sub, FrameReport& report) {
 
 /// Speed that the forces of a whole sub-step give to the bodies of a contact [m/s].
 double Simulator::Impl::speed_by_forces(const Substep& sub, const Block& block) const {
-  return gained_speed(block, gain) * sub.planned_dt / impulse_time_of(sub, block);
+  return speeds_of(block, gain) * sub.planned_dt / impulse_time_of(sub, block);
 }
 
-// Slower ones are stopped within a sub-step: its forces change speeds by more. What rests has no
-// approach before the forces.
+// Slower ones are stopped within a sub-step: its forces change speeds by more, or they are what the
+// softness leaves of an impact.
 bool Simulator::Impl::is_fast(const Substep& sub, const Block& block, double approach) const {
   constexpr double kSlow = 0.1;
-  return approach > kSlow * std::max(speed_by_forces(sub, block), scene->contact.restitution_speed);
+  constexpr double kLeft = 10.0 * kRigidContact;
+  return approach >
+         std::max({kSlow * speed_by_forces(sub, block), kSlow * scene->contact.restitution_speed,
+                   kLeft * speeds_of(block, sub.u_before)});
 }
 
+// What rests has no approach before the forces.
 bool Simulator::Impl::arrives(const Substep& sub, const Block& block) const {
   return !is_soft_contact(block) && is_fast(sub, block, -normal_speed(block, sub.u_before));
 }
@@ -170,15 +173,6 @@ SweptContacts::Found Simulator::Impl::settle_waiting(const Substep& sub, std::si
   return left;
 }
 
-/// The speed at which a contact that touches is struck, 0 if it is not [m/s].
-double Simulator::Impl::approach_at_start(const Substep& sub, std::span<const Vec6> u,
-                                          const Block& block) const {
-  if (!block.is_contact() || is_soft_contact(block)) return 0.0;
-  const double approach = -normal_speed(block, u);
-  if (!is_fast(sub, block, approach)) return 0.0;
-  return block.phi[0] <= touching(block) ? approach : 0.0;
-}
-
 // What joints and resting contacts change of the velocities u at the start.
 void Simulator::Impl::set_reactions(const Substep& sub, std::span<const Vec6> u,
                                     std::span<Block> rows) {
@@ -188,7 +182,8 @@ void Simulator::Impl::set_reactions(const Substep& sub, std::span<const Vec6> u,
       set_joint(block, u);
       continue;
     }
-    if (is_soft_contact(block) || block.phi[0] > kNear * touching(block) || arrives(sub, block)) {
+    if (is_soft_contact(block) || block.phi[0] > kResting * touching(block) ||
+        arrives(sub, block)) {
       block.bias[0] = kStaysOpen;
     }
   }
@@ -205,15 +200,18 @@ bool Simulator::Impl::set_hits(const Substep& sub, std::span<const Vec6> u, doub
       set_joint(block, u);
       continue;
     }
-    const double approach = approach_at_start(sub, u, block);
-    const double e = restitution ? restitution->of(block) : 0.0;
-    if (approach > 0.0) {
+    const double approach = -normal_speed(block, u);
+    const bool fast = is_fast(sub, block, approach);
+    const double e = restitution ? restitution->restitution_of(block) : 0.0;
+    if (is_soft_contact(block) || block.phi[0] > (fast ? 1.0 : kResting) * touching(block)) {
+      block.bias[0] = kStaysOpen;
+    } else if (fast) {
       any = true;
       // What returns within the sub-step rests.
       const bool rebounds = approach >= scene->contact.restitution_speed &&
                             e * approach > speed_by_forces(sub, block);
       block.bias[0] = rebounds ? -share * e * approach : 0.0;
-    } else if (is_soft_contact(block) || block.phi[0] > kNear * touching(block) || e > 0.0) {
+    } else if (e > 0.0) {
       block.bias[0] = kStaysOpen;
     }
   }
@@ -221,6 +219,7 @@ bool Simulator::Impl::set_hits(const Substep& sub, std::span<const Vec6> u, doub
 }
 
 bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
+  begins_with_impact = false;
   u_meeting.assign(sub.u_before.begin(), sub.u_before.end());
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
@@ -231,25 +230,25 @@ bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
     return block.is_contact() && block.phi[0] <= touching(block) && arrives(sub, block);
   };
   if (std::none_of(sub.rows.begin(), sub.rows.end(), struck)) return true;
-  striking.clear();
-  for (const Block& row : sub.rows) striking.append() = row;
-  contact_softness = kSoftness;
-  set_softness(sub, striking.all());
+  impact_rows.clear();
+  for (const Block& row : sub.rows) impact_rows.append() = row;
+  contact_softness = kRigidContact;
+  set_softness(sub, impact_rows.all());
   const std::span<const InverseMass> masses = masses_of_impacts(sub);
-  set_reactions(sub, u_meeting, striking.all());
-  if (!solve_impacts(sub, striking.all(), u_meeting, masses, report)) return false;
-  u_unforced.assign(u_meeting.begin(), u_meeting.end());  // before the impacts
+  set_reactions(sub, u_meeting, impact_rows.all());
+  if (!solve_impacts(sub, impact_rows.all(), u_meeting, masses, report)) return false;
+  u_arriving.assign(u_meeting.begin(), u_meeting.end());
   const auto solve = [&](double share) {
     copy(u_star, u_meeting);
-    set_hits(sub, u_meeting, share, striking.all());
-    return solve_impacts(sub, striking.all(), u_meeting, masses, report);
+    set_hits(sub, u_meeting, share, impact_rows.all());
+    return solve_impacts(sub, impact_rows.all(), u_meeting, masses, report);
   };
   const auto work = [&] {
-    impact_solver().find_impulses(striking.all());
-    return work_of_contacts(sub, striking.all(), u_star, u_meeting, false);
+    impact_solver().find_impulses(impact_rows.all());
+    return work_of_contacts(sub, impact_rows.all(), u_star, u_meeting, false);
   };
   u_star.assign(u_meeting.begin(), u_meeting.end());
-  for (int i = 0; i < kMostPasses && set_hits(sub, u_star, 1.0, striking.all()); ++i) {
+  for (int i = 0; i < kMostPasses && set_hits(sub, u_star, 1.0, impact_rows.all()); ++i) {
     if (!solve(1.0)) return false;
     const ContactWork full = work();
     if (full.adds()) {
@@ -259,8 +258,8 @@ bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
     }
     copy(u_meeting, u_star);
   }
-  start_from(sub, u_unforced, u_star);
-  strikes = true;
+  start_from(sub, u_arriving, u_star);
+  begins_with_impact = true;
   return true;
 }
 
@@ -298,7 +297,8 @@ void Simulator::Impl::start_from(Substep& sub, std::span<const Vec6> u_minus,
 // Contacts that touch after a strike rest, or separate: their forces contain no impact.
 void Simulator::Impl::close_struck(const Substep& sub) const {
   for (Block& block : sub.rows) {
-    if (block.is_contact() && block.phi[0] <= kNear * touching(block)) block.was_closed = true;
+    if (!block.is_contact() || is_soft_contact(block)) continue;
+    if (block.phi[0] <= kResting * touching(block)) block.was_closed = true;
   }
 }
 

@@ -103,7 +103,7 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
 
 bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   sub.shift = sub.gain = {};
-  strikes = false;
+  begins_with_impact = false;
   if (!(sweeps_contacts(sub) ? solve_until_impact(sub, report) : solve_rows(sub, report))) {
     return false;
   }
@@ -136,7 +136,7 @@ bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
   if (!propagate_impacts(sub, report)) return false;
   if (sweeps_contacts(sub) && !sub.struck.empty()) copy(state.u, u_rebounding);
   if (forces_are_stored(sub)) seed(sub);
-  if (strikes) close_struck(sub);
+  if (begins_with_impact) close_struck(sub);
   set_bias(sub, report);
   if (holds_grab(sub)) soften_grab(*grab, sub.dt, sub.rows.back());
   System system{sub.rows, sub.inverse_mass,     state.u, sub.u_before, sub.dt,
@@ -236,7 +236,7 @@ bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report
   const bool full = entry_of(settings.mode).full_stiffness;
   const bool known = !state.k.empty() && (!full || !state.K_resisting.empty());
   // The forces of an impact do not last, nor those that stop the rest of it in a short sub-step.
-  if (sweeps_contacts(sub) && (strikes || !sub.smooth) && known) {
+  if (sweeps_contacts(sub) && (begins_with_impact || !sub.smooth) && known) {
     report.stages.stiffness = true;  // the last one is kept
     bound = StiffnessStage::bound(*scene, sub.part->bodies, state.k);
     return true;

@@ -20,9 +20,8 @@
 namespace substep {
 namespace {
 
-constexpr int kMostSolves = 8;   // for velocities, in a sub-step
-constexpr int kMostShifts = 4;   // for shifts
-constexpr double kRigid = 1e-5;  // softness of contacts, of the mobility of their rows
+constexpr int kMostSolves = 8;  // for velocities, in a sub-step
+constexpr int kMostShifts = 4;  // for shifts
 
 // Of shapes that overlap at the start.
 constexpr double kFastestParting = 1.0;  // half widths of the narrower shape per second
@@ -61,7 +60,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, bool shortens, FrameReport& repo
     swept = std::make_unique<SweptContacts>();
     swept->reserve(blocks.capacity());
     parting.reserve(blocks.capacity());
-    striking.reserve(blocks.capacity());
+    impact_rows.reserve(blocks.capacity());
     impact_solver().reserve(state.u.size(), blocks.capacity());
   }
   gain.resize(state.u.size());
@@ -69,7 +68,6 @@ bool Simulator::Impl::solve_swept(Substep& sub, bool shortens, FrameReport& repo
   for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = state.u[i] - sub.u_before[i];
   lowered = 0;
   lowered_to = 1.0;
-  strikes = false;
   if (!strike(sub, report)) return false;
   const int lowered_at_start = lowered;
   const double lowered_at_start_to = lowered_to;
@@ -123,7 +121,7 @@ void Simulator::Impl::add_reactions(const Substep& sub, std::size_t solved) {
   const std::span<const Block> rows = sub.rows.first(solved - first_block);
   const bool hits = std::any_of(rows.begin(), rows.end(), [&](const Block& block) {
     return block.is_contact() && block.impulse[0] > 0.0 &&
-           block.phi[0] > sub.dt * gained_speed(block, gain);
+           block.phi[0] > sub.dt * speeds_of(block, gain);
   });
   if (hits) return;
   for (const int body : sub.part->moving) {
@@ -134,7 +132,7 @@ void Simulator::Impl::add_reactions(const Substep& sub, std::size_t solved) {
 // Solves with rigid contacts; if the solver finds no solution, as can be where many touch at once,
 // with softer ones: what BPP then falls back to could add energy.
 bool Simulator::Impl::solve_softly(Substep& sub, FrameReport& report) {
-  for (const double softness : {kRigid, 100.0 * kRigid, 1e4 * kRigid}) {
+  for (const double softness : {kRigidContact, 100.0 * kRigidContact, 1e4 * kRigidContact}) {
     contact_softness = softness;
     const std::int64_t unsolved = report.work.unsolved;
     if (!solve_afresh(sub, report)) return false;
@@ -146,7 +144,7 @@ bool Simulator::Impl::solve_softly(Substep& sub, FrameReport& report) {
       lower_to(0.0);
     }
     if (last_solve < SolveStatus::kUnsolved) break;
-    if (softness < 1e4 * kRigid) report.work.unsolved = unsolved;
+    if (softness < 1e4 * kRigidContact) report.work.unsolved = unsolved;
   }
   return true;
 }
@@ -189,7 +187,7 @@ bool Simulator::Impl::parts(const Block& block) const {
 
 bool Simulator::Impl::ends_impact(const Substep& sub, const Block& block) const {
   if (!sweeps_contacts(sub) || !(block.impulse[0] > 0.0)) return false;
-  return -normal_speed(block, sub.u_before) > gained_speed(block, sub.gain);
+  return -normal_speed(block, sub.u_before) > speeds_of(block, sub.gain);
 }
 
 // The smallest change of the shift that keeps shapes apart at the end, and joints. Returns false if

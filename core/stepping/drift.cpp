@@ -74,10 +74,10 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
   }
 }
 
-double gained_speed(const Block& contact, std::span<const Vec6> gain) {
+double speeds_of(const Block& contact, std::span<const Vec6> u) {
   double speed = 0.0;
   for (const int body : {contact.a, contact.b}) {
-    if (body >= 0) speed += gain[index(body)].head<3>().norm();
+    if (body >= 0) speed += u[index(body)].head<3>().norm();
   }
   return speed;
 }
@@ -99,7 +99,7 @@ void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
     if (!block.was_closed) continue;
     if (!(block.impulse[0] > 0.0)) continue;  // it has just been struck
     const double yields = block.softness[0] * block.impulse[0];
-    const double share = std::clamp(kYields * gained_speed(block, gain) / yields, kRigid, 1.0);
+    const double share = std::clamp(kYields * speeds_of(block, gain) / yields, kRigid, 1.0);
     for (int row = 0; row < block.rows; ++row) {
       block.softness[row] *= share;
       block.bias[row] -= kKept * block.softness[row] * block.impulse[row];

@@ -13,8 +13,8 @@ namespace substep {
 ///   soft  phi dt/tau^2 for dt < tau, else phi/dt
 /// An open contact has bias gap/dt under both laws, so that a body does not stop early. The elastic
 /// part of a closed contact's phi, Block::elastic, is not drift: only phi - elastic is corrected.
-/// Joint springs are set afterwards: compliance.hpp. The gap of a joint must not become the speed
-/// of a sub-step that an impact shortens: phi/planned_dt then.
+/// Joint springs are set afterwards: compliance.hpp. In a sub-step that an impact shortens, a joint
+/// under the law full has phi/planned_dt: its gap must not become speed.
 /// @param dt [s]  @param planned_dt >= dt [s]
 void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt, double planned_dt);
 
@@ -37,16 +37,17 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
                            std::span<const InverseMass> inverse_mass, double dt,
                            double regularisation);
 
-/// Speed that the forces of a sub-step give to the bodies of a contact [m/s].
-/// @param gain per body: velocity by these forces [m/s, rad/s]
-double gained_speed(const Block& contact, std::span<const Vec6> gain);
+/// Sum of the speeds of the centres of mass of a contact's bodies [m/s].
+/// @param u per body: velocities, or their changes by forces [m/s, rad/s]
+double speeds_of(const Block& contact, std::span<const Vec6> u);
 
 /// For contacts that are found along the motion: an overlap is not corrected by velocities, and the
 /// softness, reduced under a load, acts on the change of the force alone. Bodies would sink with
 /// the softness times the force. The impulses are those of the last sub-step.
 /// The small gap of a contact that rests must not become a fall in a sub-step that an impact
 /// shortens.
-/// @param gain as above  @param shift of the motion, Substep::shift
+/// @param gain per body: velocity by the forces of the sub-step [m/s, rad/s]  @param shift of the
+/// motion, Substep::shift
 /// @param dt, planned_dt as above [s]
 void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
                     std::span<const Vec6> shift, double dt, double planned_dt);

@@ -107,7 +107,7 @@ void Euler::find_hit(const Substep& sub) {
                       (!sub.struck.empty() && sub.struck[i] != 0 && sub.gain.empty());
     if (!acts) continue;
     const bool arrives = !sub.gain.empty() && block.is_contact() &&
-                         block.phi[0] > sub.dt * gained_speed(block, sub.gain);
+                         block.phi[0] > sub.dt * speeds_of(block, sub.gain);
     for (const int body : {block.a, block.b}) {
       if (body < 0) continue;
       std::uint8_t& hit = hit_[index(body)];

@@ -19,7 +19,7 @@ void keep_speeds(Block& joint, std::span<const Vec6> u) {
 
 }  // namespace
 
-double RestitutionStage::of(const Block& contact) const {
+double RestitutionStage::restitution_of(const Block& contact) const {
   return std::max(scene_.bodies[index(contact.body_a)].restitution,
                   scene_.bodies[index(contact.body_b)].restitution);
 }
@@ -30,7 +30,7 @@ double RestitutionStage::of(const Block& contact) const {
 // is phi + time J (u + g) if u has changed since the start, phi that of a motion at u throughout.
 RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<const Vec6> u,
                                                   const Block& block) const {
-  if (!block.is_contact() || block.awaits || of(block) == 0.0) return {};
+  if (!block.is_contact() || block.awaits || restitution_of(block) == 0.0) return {};
   const double least = scene_.contact.restitution_speed;
   const double before = normal_speed(block, u);
   if (sub.gain.empty()) {
@@ -49,7 +49,7 @@ RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<
   const double kick = acceleration * force_time;
   const double speed = -(before + kick);
   // What returns within the sub-step rests.
-  const bool returns = of(block) * speed <= -acceleration * sub.dt;
+  const bool returns = restitution_of(block) * speed <= -acceleration * sub.dt;
   return speed >= least && !returns ? Impact{speed, force_time, kick, time, acceleration}
                                     : Impact{};
 }
@@ -61,7 +61,7 @@ void RestitutionStage::apply(const Substep& sub, std::span<const Vec6> u_before,
     if (sub.gain.empty()) {
       const Impact hit = impact(sub, u_before, block);
       if (hit.speed > 0.0) {
-        block.bias[0] = std::min(block.bias[0], -of(block) * hit.speed + hit.kick);
+        block.bias[0] = std::min(block.bias[0], -restitution_of(block) * hit.speed + hit.kick);
       }
     }
     if (struck_.empty() || struck_[i] == 0) continue;
@@ -92,7 +92,7 @@ bool RestitutionStage::spreads(const Substep& sub, std::span<const Vec6> u,
   if (!any) return false;
   const bool spread =
       !sub.gain.empty() || std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
-        if (!block.is_contact() || of(block) == 0.0) return false;
+        if (!block.is_contact() || restitution_of(block) == 0.0) return false;
         if (impact(sub, u, block).speed > 0.0) return false;
         double change = 0.0;  // each body's speed changes by at most twice its fastest impact
         for (const int body : {block.a, block.b}) {
@@ -128,7 +128,7 @@ bool RestitutionStage::set_impacts(const Substep& sub, std::span<const Vec6> u, 
       continue;
     }
     struck_[i] = 1;
-    const double e = share * of(block);
+    const double e = share * restitution_of(block);
     block.bias[0] = -e * hit.speed + hit.kick;
     if (hit.time > first) continue;
     since_ = first / sub.dt;

@@ -22,7 +22,7 @@ class RestitutionStage {
   explicit RestitutionStage(const Scene& scene) : scene_(scene), impact_(scene.bodies.size()) {}
 
   /// The coefficient e of a contact: the larger one of its bodies.
-  [[nodiscard]] double of(const Block& contact) const;
+  [[nodiscard]] double restitution_of(const Block& contact) const;
 
   /// Modifies the bias set by the drift law. With contacts found along the motion, all rebounds are
   /// impacts that spread. A contact already struck in this sub-step separates at

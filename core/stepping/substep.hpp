@@ -34,7 +34,7 @@ struct Substep {
   Settings settings;
   const Part* part = nullptr;  // bodies to move
   double dt = 0.0;             // [s]
-  double planned_dt = 0.0;     // if no impact ended it or one before it [s]
+  double planned_dt = 0.0;     // the longest planned since the first impact of the frame [s]
   bool probing = false;        // only the forces are kept
   bool outputs_needed = true;  // velocities at the time of the poses, forces
 

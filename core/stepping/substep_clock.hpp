@@ -59,9 +59,10 @@ class SubstepClock {
   [[nodiscard]] int taken() const { return taken_; }
   /// True if the sub-step may be shortened, which happens at most max(few, N/4) times in a frame.
   [[nodiscard]] bool may_shorten(int few) const;
-  /// The length of a sub-step that no impact ends [s].
+  /// The longest length that was planned since the first impact of the frame [s].
   [[nodiscard]] double planned_dt() const { return planned_; }
-  /// Ends the sub-step after dt; the rest of the frame is divided anew. @param dt < dt() [s]
+  /// Ends the sub-step after dt; equal sub-steps fill the rest of the frame. May be called again to
+  /// correct dt. @param dt less than the length of the sub-step before the first call [s]
   void shorten(double dt);
   /// True if the stiffness of this sub-step is needed later.
   [[nodiscard]] bool needs_stiffness() const;

@@ -30,7 +30,9 @@ int deal(const Settings& settings, double r, double* sum = nullptr) {
   return n;
 }
 
-TEST(SubstepClock, FillsTheWholeFrame) {
+/// Every mode with each policy, 200 times with another N. @param run(settings, random)
+template <class Run>
+void for_many_clocks(const Run& run) {
   Random random(1);
   for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kDamping, Mode::kAdaptive, Mode::kCapped,
                           Mode::kStiffness, Mode::kInertia, Mode::kBlend}) {
@@ -40,52 +42,49 @@ TEST(SubstepClock, FillsTheWholeFrame) {
         settings.mode = mode;
         settings.policy = policy;
         settings.n = 1 + trial;
-        SubstepClock clock(settings, kFrame, uniform(random, 0.0, 1e6));
-        double sum = 0.0;
-        while (clock.running()) {
-          EXPECT_GT(clock.dt(), 0.0);
-          sum += clock.dt();
-          clock.advance(uniform(random, 0.0, 1e6));
-        }
-        EXPECT_NEAR(sum, kFrame, 1e-15);
+        run(settings, random);
       }
     }
   }
 }
 
+TEST(SubstepClock, FillsTheWholeFrame) {
+  for_many_clocks([](const Settings& settings, Random& random) {
+    SubstepClock clock(settings, kFrame, uniform(random, 0.0, 1e6));
+    double sum = 0.0;
+    while (clock.running()) {
+      EXPECT_GT(clock.dt(), 0.0);
+      sum += clock.dt();
+      clock.advance(uniform(random, 0.0, 1e6));
+    }
+    EXPECT_NEAR(sum, kFrame, 1e-15);
+  });
+}
+
 // Impacts end sub-steps early, a limited number of times in a frame.
 TEST(SubstepClock, FillsTheWholeFrameWhereImpactsEndSubsteps) {
-  Random random(2);
-  for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kAdaptive, Mode::kCapped}) {
-    for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
-      for (int trial = 0; trial < 200; ++trial) {
-        Settings settings;
-        settings.mode = mode;
-        settings.policy = policy;
-        settings.n = 1 + trial;
-        SubstepClock clock(settings, kFrame, uniform(random, 0.0, 1e6));
-        double sum = 0.0;
-        int shortened = 0;
-        while (clock.running()) {
-          const double before = clock.dt();
-          EXPECT_LE(before, (1.0 + 1e-12) * clock.planned_dt());
-          if (uniform(random, 0.0, 1.0) < 0.5 && clock.may_shorten(4)) {
-            clock.shorten(uniform(random, 0.001, 0.999) * before);
-            clock.shorten(uniform(random, 0.001, 0.999) * before);  // corrected
-            ++shortened;
-          }
-          EXPECT_GT(clock.dt(), 0.0);
-          EXPECT_LE(clock.dt(), before);
-          sum += clock.dt();
-          clock.advance(uniform(random, 0.0, 1e6));
-        }
-        EXPECT_NEAR(sum, kFrame, 1e-14);
-        if (policy == Policy::kFrame) {  // else the plan changes
-          EXPECT_LE(shortened, std::max(4, (clock.taken() - shortened) / 4));
-        }
+  for_many_clocks([](const Settings& settings, Random& random) {
+    SubstepClock clock(settings, kFrame, uniform(random, 0.0, 1e6));
+    double sum = 0.0;
+    int shortened = 0;
+    while (clock.running()) {
+      const double whole = clock.dt();
+      EXPECT_LE(whole, (1.0 + 1e-12) * clock.planned_dt());
+      if (uniform(random, 0.0, 1.0) < 0.5 && clock.may_shorten(4)) {
+        clock.shorten(uniform(random, 0.001, 0.999) * whole);
+        clock.shorten(uniform(random, 0.001, 0.999) * whole);  // corrected
+        ++shortened;
       }
+      EXPECT_GT(clock.dt(), 0.0);
+      EXPECT_LE(clock.dt(), whole);
+      sum += clock.dt();
+      clock.advance(uniform(random, 0.0, 1e6));
     }
-  }
+    EXPECT_NEAR(sum, kFrame, 1e-14);
+    if (settings.policy == Policy::kFrame) {  // else the plan changes
+      EXPECT_LE(shortened, std::max(4, (clock.taken() - shortened) / 4));
+    }
+  });
 }
 
 TEST(SubstepClock, TakesTheCeilingOfEq11) {

@@ -65,6 +65,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, bool shortens, FrameReport& repo
   }
   gain.resize(state.u.size());
   u_rebounding.resize(state.u.size());
+  u_arriving.resize(state.u.size());
   for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = state.u[i] - sub.u_before[i];
   lowered = 0;
   lowered_to = 1.0;

@@ -34,12 +34,12 @@ void reset_row(Block& block) {
 }
 
 // Springs keep their speed, a grab exerts no impulse.
-void set_joint(Block& joint, std::span<const Vec6> u) {
+void set_joint(std::span<const InverseMass> inverse_mass, std::span<const Vec6> u, Block& joint) {
   double speed[kMaxRows];
   row_speeds(joint, u, speed);
   for (int row = 0; row < joint.rows; ++row) {
     joint.bias[row] = is_spring(joint, row) ? -speed[row] : 0.0;
-    if (is_grab(joint)) give_force(joint, row, 0.0);
+    if (is_grab(joint)) give_force(inverse_mass, joint, row, 0.0);
   }
 }
 
@@ -179,7 +179,7 @@ void Simulator::Impl::set_reactions(const Substep& sub, std::span<const Vec6> u,
   for (Block& block : rows) {
     reset_row(block);
     if (!block.is_contact()) {
-      set_joint(block, u);
+      set_joint(sub.inverse_mass, u, block);
       continue;
     }
     if (is_soft_contact(block) || block.phi[0] > kResting * touching(block) ||
@@ -197,7 +197,7 @@ bool Simulator::Impl::set_hits(const Substep& sub, std::span<const Vec6> u, doub
   for (Block& block : rows) {
     reset_row(block);
     if (!block.is_contact()) {
-      set_joint(block, u);
+      set_joint(sub.inverse_mass, u, block);
       continue;
     }
     const double approach = -normal_speed(block, u);

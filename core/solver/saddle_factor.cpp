@@ -147,7 +147,7 @@ double SaddleLdlt::fair_softness(const Block& block, int row) const {
   const int end = moves ? block.position_rows : block.rows;
   double sum = 0.0;
   for (int i = first; i < end; ++i) {
-    sum += mobility_on(block, i, true, inverse_mass_) + mobility_on(block, i, false, inverse_mass_);
+    sum += mobility_of(block, i, inverse_mass_);
   }
   return kFair * sum / (end - first);
 }

@@ -14,11 +14,24 @@ namespace {
 // precision in the inertia.
 constexpr double kFold = 1e7;
 constexpr int kLeafRows = 8;  // with more rows folding is cheaper
+// A joint yields if the softness of a row exceeds this fraction of its mobility. In the articulated
+// form, rounding errors of momenta grow by softness times inertia.
+constexpr double kYields = 1e-3;
 
 /// Upper bound on J Mt^-1 J^T of a row on one body.
 double mobility(const double (&J)[6], const InverseMass& mass) {
   return mass.linear * (J[0] * J[0] + J[1] * J[1] + J[2] * J[2]) +
          mass.angular.trace() * (J[3] * J[3] + J[4] * J[4] + J[5] * J[5]);
+}
+
+/// Upper bound on it of point rows, from the arms.
+double point_mobility(const Block& joint, const System& system) {
+  const auto most_of = [&](int body, const Vec3& r) {
+    if (body < 0) return 0.0;
+    const InverseMass& mass = system.inverse_mass[index(body)];
+    return mass.linear + mass.angular.trace() * r.squaredNorm();
+  };
+  return most_of(joint.a, joint.r_a) + most_of(joint.b, joint.r_b);
 }
 
 }  // namespace
@@ -52,16 +65,11 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
 }
 
 bool SaddleLdlt::foldable(const Block& block, const System& system) const {
-  const auto most_of = [&](int body, const Vec3& r) {
-    if (body < 0) return 0.0;
-    const InverseMass& mass = system.inverse_mass[index(body)];
-    return mass.linear + mass.angular.trace() * r.squaredNorm();
-  };
   int row = 0;
   if (block.has_point_rows) {  // bound for the first rows from the arms
     const double* s = block.softness;
     const double least = std::min(s[0], std::min(s[1], s[2]));
-    if (!(most_of(block.a, block.r_a) + most_of(block.b, block.r_b) <= kFold * least)) return false;
+    if (!(point_mobility(block, system) <= kFold * least)) return false;
     row = 3;
   }
   for (; row < block.rows; ++row) {
@@ -74,6 +82,19 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
     if (!(most <= kFold * s)) return false;
   }
   return true;
+}
+
+bool SaddleLdlt::yields(const Block& joint, const System& system) {
+  const auto any_above = [&](int first, int end, double most) {
+    return std::any_of(joint.softness + first, joint.softness + end,
+                       [&](double softness) { return softness > most; });
+  };
+  if (!any_above(0, joint.rows, 0.0)) return false;
+  const auto turning = [&](int body) {
+    return body < 0 ? 0.0 : system.inverse_mass[index(body)].angular.trace();
+  };
+  return any_above(0, 3, kYields * point_mobility(joint, system)) ||
+         any_above(3, joint.rows, kYields * (turning(joint.a) + turning(joint.b)));
 }
 
 bool SaddleLdlt::begin(const System& system) {
@@ -129,6 +150,10 @@ bool SaddleLdlt::layout_is_the_same(const System& system) {
     return false;
   }
   for (const Node& node : nodes_) {
+    if (node.in_tree) {
+      const Attached& joint = attached_[node.first_attached];
+      if (joint.yields != yields(system.blocks[index(joint.block)], system)) return false;
+    }
     if (node.kind != NodeKind::kGeneral) continue;
     for (std::size_t k = 0; k < node.n_attached; ++k) {
       const Attached& attached = attached_[node.first_attached + k];
@@ -293,10 +318,14 @@ void SaddleLdlt::choose_kind(Node& node, const System& system) {
   const std::span<const Block> blocks = system.blocks;
   Attached* attached = attached_.data() + node.first_attached;
   const int* children = children_.data() + node.first_child;
-  const bool in_tree = std::all_of(children, children + node.n_children,
-                                   [&](int child) { return nodes_[index(child)].coupled == 1; });
-  if (in_tree && node.n_attached == 1 && blocks[index(attached[0].block)].has_point_rows &&
-      node.coupled == (attached[0].other < 0 ? 0 : 1)) {
+  const bool carries_trees = std::all_of(children, children + node.n_children, [&](int child) {
+    return nodes_[index(child)].coupled == 1;
+  });
+  node.in_tree = carries_trees && node.n_attached == 1 &&
+                 blocks[index(attached[0].block)].has_point_rows &&
+                 node.coupled == (attached[0].other < 0 ? 0 : 1);
+  if (node.in_tree) attached[0].yields = yields(blocks[index(attached[0].block)], system);
+  if (node.in_tree && !attached[0].yields) {
     node.kind = NodeKind::kArticulated;
     const Block& joint = blocks[index(attached[0].block)];
     attached[0].exact = std::all_of(joint.softness, joint.softness + joint.rows,

@@ -22,7 +22,8 @@ namespace substep {
 /// A node of the elimination is a body with all constraints to later bodies. It receives the
 /// contributions of earlier nodes, and contributes a symmetric matrix (Schur complement) to the
 /// later bodies it is coupled to. There are three kinds of nodes:
-///  - articulated: one joint with point rows to one later body or the world, in closed form;
+///  - articulated: one joint with point rows to one later body or the world, in closed form, which
+///    loses digits to rows softer than the bodies: such a joint is not articulated;
 ///  - leaf: no contributions, so Mt^-1 is known and only the rows remain, S = s + J Mt^-1 J^T;
 ///  - general: LDL^T of the 6 x 6 inertia, then of S.
 /// In a general node, rows with enough softness are folded into the bodies as springs of stiffness
@@ -77,10 +78,12 @@ class SaddleLdlt {
     bool exact = false;  // articulated nodes: value at layout time
     bool foldable = false;
     bool folded = false;
+    bool yields = false;  // see yields(); value at layout time, for nodes with in_tree
   };
   struct Node {
     int body = 0;
     NodeKind kind = NodeKind::kGeneral;
+    bool in_tree = false;  // one joint with point rows, to one later body or the world
     bool dirty = true;
     int parent = -1;                // the node that receives this one's contribution
     int coupled = 0;                // later bodies
@@ -150,6 +153,8 @@ class SaddleLdlt {
     return static_cast<std::size_t>(&node - nodes_.data());
   }
   [[nodiscard]] bool foldable(const Block& block, const System& system) const;
+  /// True if rows of a joint are softer than its bodies.
+  [[nodiscard]] static bool yields(const Block& joint, const System& system);
   bool layout_is_the_same(const System& system);
   bool lay_out(const System& system);
   /// Makes room for a list per node, one after the other: counts become offsets.

@@ -89,6 +89,10 @@ struct SolveReport {
 /// J Mt^-1 J^T of one row through one of its bodies, 0 through a static one [1/kg or 1/(kg m^2)].
 double mobility_on(const Block& block, int row, bool of_a,
                    std::span<const InverseMass> inverse_mass);
+/// Through both.
+inline double mobility_of(const Block& block, int row, std::span<const InverseMass> inverse_mass) {
+  return mobility_on(block, row, true, inverse_mass) + mobility_on(block, row, false, inverse_mass);
+}
 
 /// The longer of the times of a block's bodies. @param times per body [s]
 inline double longest_of(const Block& block, std::span<const double> times) {

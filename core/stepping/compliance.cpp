@@ -7,20 +7,26 @@
 
 namespace substep {
 
+namespace {
+
+// Softness of a row with a prescribed impulse, of its mobility: J u is negligible beside it.
+constexpr double kGivenForce = 1e12;
+
+}  // namespace
+
 double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, const Block& joint,
                     int first, int end) {
   double most = 0.0;
   for (int row = first; row < end; ++row) {
-    most = std::max(most, mobility_on(joint, row, true, inverse_mass) +
-                              mobility_on(joint, row, false, inverse_mass));
+    most = std::max(most, mobility_of(joint, row, inverse_mass));
   }
   return dt_t * most / joint.C[first];
 }
 
-void give_force(Block& joint, int row, double impulse) {
+void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row, double impulse) {
   joint.given[row] = impulse;
   joint.bias[row] = 0.0;
-  joint.softness[row] = kGivenForce;
+  joint.softness[row] = kGivenForce * mobility_of(joint, row, inverse_mass);
 }
 
 // Smallest compliance of a contact treated as a spring [m/N]. Stiffer ones model rigid bodies,
@@ -35,9 +41,8 @@ void stiffen_contacts(const Substep& sub, double share, std::span<Block> rows) {
     if (!block.is_contact()) continue;
     for (int row = 0; row < block.rows; ++row) {
       if (block.C[row] >= kSoftContact) continue;
-      const double mobility = mobility_on(block, row, true, sub.inverse_mass) +
-                              mobility_on(block, row, false, sub.inverse_mass);
-      block.softness[row] = share * mobility + sub.scene->regularisation;
+      block.softness[row] =
+          share * mobility_of(block, row, sub.inverse_mass) + sub.scene->regularisation;
     }
   }
 }
@@ -104,7 +109,7 @@ void set_joint_springs(const Substep& sub, const State& state, Block& joint) {
     for (int row = first; row < end; ++row) {
       const double elastic = joint.elastic[row];
       if (w.ahead == 0.0) {
-        give_force(joint, row, -force_time * elastic / C);
+        give_force(sub.inverse_mass, joint, row, -force_time * elastic / C);
         continue;
       }
       const double behind = w.behind * dt_previous * speed[row];

@@ -27,12 +27,10 @@ namespace substep {
 // sigma = kappa^2/(kappa^2 + 4): w+ - w- = sigma, which changes a resolved spring at fourth order
 // in dt.
 
-/// Softness of a row with a prescribed impulse: so large that J u is negligible [1/kg].
-inline constexpr double kGivenForce = 1e12;
 /// Prescribes the impulse of a row, Block::given; the solve adds nothing to it. Expressed by
 /// softness and bias alone, it would be a small difference of large numbers. @param impulse [N s, N
 /// m s]
-void give_force(Block& joint, int row, double impulse);
+void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row, double impulse);
 
 /// kappa of rows with a common compliance, for their softest direction. @param dt_t dt t [s^2]
 double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, const Block& joint,

@@ -69,7 +69,7 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
       block.softness[row] = regularisation;
       block.impulse[row] = block.given[row] = 0.0;
       if (springs[row < block.position_rows ? 0 : 1])
-        give_force(block, row, -block.phi[row] / block.C[row]);
+        give_force(inverse_mass, block, row, -block.phi[row] / block.C[row]);
     }
   }
 }

@@ -83,8 +83,11 @@ Accelerations accelerations_at(const Trial& trial, Solver& linear) {
 }  // namespace
 
 bool needs_first_changes(const Substep& sub, const State& state) {
-  if (sub.probing || sub.scene->effects.contact) return false;
-  if (!sub.rows.empty() && is_grab(sub.rows.back())) return false;
+  if (sub.probing) return false;
+  const bool knows_forces = std::none_of(sub.rows.begin(), sub.rows.end(), [](const Block& block) {
+    return is_grab(block) || (block.is_contact() && block.phi[0] <= 0.0);
+  });
+  if (!knows_forces) return false;
   const std::vector<int>& moving = sub.part->moving;
   return std::none_of(moving.begin(), moving.end(),
                       [&](int i) { return state.dt_previous_of(index(i)) > 0.0; });

@@ -25,7 +25,8 @@ struct FirstAccelerations {
   Accelerations after;  // at dt
 };
 
-/// True before the first sub-step of a part on which only joints act.
+/// True before the first sub-step of a part on which only joints act: no contact is closed, no body
+/// is grabbed.
 bool needs_first_changes(const Substep& sub, const State& state);
 
 /// @param sub with rotation matrices and rows  @param joints null without joints

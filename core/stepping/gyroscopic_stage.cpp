@@ -22,12 +22,15 @@ bool is_zero(const Vec3& v) { return v.isZero(0.0); }
 // offset from the joint, and angular momentum and energy drift. The rows are therefore set up at
 // the predicted poses ("bent"):
 //   phi + (r_a^ - r_a) - (r_b^ - r_b) + dt (J u+ - J_omega omega^) = 0,
-// and likewise for a hinge. Centres move linearly and drop out. Impacts cannot be predicted: in
-// scenes with contacts joints use plain Eq. 3.
+// and likewise for a hinge. Centres move linearly and drop out. Impacts cannot be predicted: where
+// they happen within sub-steps, in scenes with contacts that are not found along the motion, joints
+// use plain Eq. 3. Joints that are closed exactly hold at the end poses either way.
 bool bends_rows(const Substep& sub) {
   const Settings& settings = sub.settings;
+  const bool with_contacts =
+      settings.detection == Detection::kContinuous && drift_law(settings) != Drift::kExact;
   return settings.gyroscopic == Gyroscopic::kImplicit && sub.scene->effects.joints &&
-         !sub.scene->effects.contact && settings.drift_order == 1 &&
+         (!sub.scene->effects.contact || with_contacts) && settings.drift_order == 1 &&
          !entry_of(settings.solver).at_end;
 }
 
@@ -52,7 +55,7 @@ bool any_out_of_axis(const Substep& sub, const State& state) {
 }
 
 // The force acts on both bodies at one point, the static anchor or the midpoint, for any gap:
-// angular momentum is then conserved to rounding.
+// angular momentum is then conserved to rounding. The rows measure the speed of that point.
 void meet(Block& block) {
   const Vec3 gap{block.phi[0], block.phi[1], block.phi[2]};
   if (block.a >= 0) block.r_a -= (block.b >= 0 ? 0.5 : 1.0) * gap;
@@ -179,9 +182,11 @@ void GyroscopicStage::bend_rows(const Substep& sub) const {
     double bent[kMaxRows];
     double speed[kMaxRows];
     moved_errors(block, motion(u_a, dt), motion(u_b, dt), bent);
+    const bool stretches = block.C[0] > 0.0;
+    if (block.has_point_rows && stretches) meet(block);
     row_speeds(block, block.a >= 0 ? &u_a : nullptr, block.b >= 0 ? &u_b : nullptr, speed);
     for (int row = 0; row < block.rows; ++row) block.bias[row] += bent[row] / dt - speed[row];
-    if (block.has_point_rows) meet(block);
+    if (block.has_point_rows && !stretches) meet(block);
   }
 }
 

@@ -237,7 +237,7 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
       per_g = 1.0 / (1.0 + growth_of(sub.dt, time) * sub.dt / (6.0 * time));
     }
     for (int row = 0; row < block.rows; ++row) {
-      if (block.softness[row] >= kGivenForce) continue;
+      if (block.C[row] > 0.0 && !(block.spring_ahead[row] > 0.0)) continue;  // its force is given
       // The bias of a spring belongs to a mean over the sub-step.
       const double aimed = block.C[row] > 0.0
                                ? per_g * (block.bias[row] + gained[row] / sub.dt)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "core/constraints/hinge_joint.hpp"
 
@@ -47,6 +48,7 @@ struct PrismaticRows {
     const Vec3 d = (a.x - b.x) + (r_a - b.R * joint.anchor_b);
     block.r_a = r_a;
     block.r_b = (a.x - b.x) + r_a;
+    block.rho = b.R * joint.anchor_b;
     block.axis = a.R * joint.u;
     block.w = a.R * joint.w;
     block.v1 = b.R * joint.v1;
@@ -110,6 +112,7 @@ struct PrismaticRows {
     moved_errors(start, a, b, moved.phi);
     moved.r_b = slid_rho(start, a, b);
     moved.r_a = a.R * start.r_a;
+    moved.rho = b.R * start.rho;
     moved.axis = a.R * start.axis;
     moved.w = a.R * start.w;
     moved.v1 = b.R * start.v1;
@@ -152,6 +155,26 @@ struct PrismaticRows {
     on_a.tail<3>() += turned;
     on_b.head<3>() -= f_moved - f;
     on_b.tail<3>() -= slid;
+  }
+
+  /// The joint with a and b exchanged, with the same forces on the bodies: at the anchor on b, in
+  /// directions fixed in a.
+  static Block exchanged(const Block& block) {
+    const Vec3 d = block.r_b - block.rho;
+    const Vec3 couple =
+        -(torque(block, block.lambda) + d.cross(force(block, block.lambda)));  // on b
+    Block out = block;
+    std::swap(out.a, out.b);
+    out.r_a = block.rho;
+    out.r_b = block.r_a - d;
+    out.rho = block.r_a;
+    out.w = block.v1;
+    out.lambda[0] = -block.lambda[0];
+    out.lambda[1] = -block.lambda[1];
+    out.lambda[2] = couple.dot(block.v2);
+    out.lambda[3] = -couple.dot(block.v1);
+    out.lambda[4] = couple.dot(block.axis);
+    return out;
   }
 
  private:

@@ -61,26 +61,36 @@ Mat6 StiffnessMatrix::block(int row, int col) const {
   return K;
 }
 
-void StiffnessMatrix::column_norms(std::span<const int> bodies, std::span<const Mat3> R_WB,
-                                   std::span<Vec6> k) const {
-  // The norm is invariant under rotation of the rows, so only the columns are rotated.
-  const auto add_squares = [](const auto& columns, const Mat3& R, auto&& sum) {
-    const auto turned = (columns * R).eval();
+// Norms of angular parts are invariant under rotation of the rows, so only the columns are rotated.
+void StiffnessMatrix::column_norms(std::span<const int> moving, std::span<const Body> bodies,
+                                   std::span<const Mat3> R_WB, std::span<Vec6> k) const {
+  const auto add_squares = [](const Mat3& columns, const Mat3& R, const Vec3& weights, auto&& sum) {
+    const Mat3 turned = columns * R;
     for (int c = 0; c < 3; ++c) {
-      for (int i = 0; i < turned.rows(); ++i) sum[c] += turned(i, c) * turned(i, c);
+      for (int i = 0; i < 3; ++i) sum[c] += weights[c] * (turned(i, c) * turned(i, c));
     }
   };
-  for (const int body : bodies) {
+  const Vec3 one = Vec3::Ones();
+  for (const int body : moving) {
     const auto col = index(body);
+    const Mat3& R = R_WB[col];
     Vec6 sum = Vec6::Zero();
     for (int e = body; e >= 0; e = pairs_[index(e)].next) {
       const auto at = index(e);
       if (whole_.empty()) {
-        add_squares(angular_[at], R_WB[col], sum.tail<3>());
-      } else {
-        add_squares(whole_[at].leftCols<3>(), R_WB[col], sum.head<3>());
-        add_squares(whole_[at].rightCols<3>(), R_WB[col], sum.tail<3>());
+        add_squares(angular_[at], R, one, sum.tail<3>());
+        continue;
       }
+      const Mat6& K = whole_[at];
+      const auto row = index(pairs_[at].row);
+      const Vec3 per_inertia = bodies[row].inertia.cwiseInverse().cwiseSqrt();
+      const Mat3 torques =
+          per_inertia.asDiagonal() * R_WB[row].transpose() * K.bottomLeftCorner<3, 3>();
+      add_squares(K.topLeftCorner<3, 3>(), R, one, sum.head<3>());
+      add_squares(torques, R, bodies[col].mass * one, sum.head<3>());
+      add_squares(K.topRightCorner<3, 3>(), R, bodies[col].inertia / bodies[row].mass,
+                  sum.tail<3>());
+      add_squares(K.bottomRightCorner<3, 3>(), R, one, sum.tail<3>());
     }
     for (int i = whole_.empty() ? 3 : 0; i < 6; ++i) sum[i] = std::sqrt(sum[i]);
     k[col] = sum;

@@ -247,7 +247,7 @@ bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report
                              : settings.contact_stiffness == ContactStiffness::kExact
                                  ? ContactTerms::kExact
                                  : ContactTerms::kPaper;
-  stiffness->evaluate(sub.rows, terms, *sub.part, sub.R_WB, state.k);
+  stiffness->evaluate(*scene, sub.rows, terms, *sub.part, sub.R_WB, state.k);
   if (full) {  // bodies outside the part keep their values, as in k
     state.K_resisting.resize(state.k.size(), Mat3::Zero());
     for (const int body : sub.part->bodies) {

@@ -10,18 +10,31 @@ StiffnessStage::StiffnessStage(const Scene& scene) {
   K_.reserve(scene.bodies.size(), joints + contacts);
 }
 
-void StiffnessStage::evaluate(std::span<const Block> blocks, ContactTerms terms, const Part& part,
-                              std::span<const Mat3> R_WB, std::vector<Vec6>& k) {
+// The rows of some joints change if a and b are exchanged, and K with them in directions that the
+// joint does not leave free. The mean of both does not depend on their order.
+void StiffnessStage::add(auto joint, const Block& block) {
+  if constexpr (requires { joint.exchanged(block); }) {
+    Block half = block;
+    for (double& lambda : half.lambda) lambda *= 0.5;
+    joint.stiffness(half, K_);
+    joint.stiffness(joint.exchanged(half), K_);
+  } else {
+    joint.stiffness(block, K_);
+  }
+}
+
+void StiffnessStage::evaluate(const Scene& scene, std::span<const Block> blocks, ContactTerms terms,
+                              const Part& part, std::span<const Mat3> R_WB, std::vector<Vec6>& k) {
   K_.clear(R_WB.size());
   for (const Block& block : blocks) {
     if (block.is_contact()) {
       contact_stiffness(block, terms, K_);
     } else {
-      with_joint_rows(block.kind, [&](auto joint) { joint.stiffness(block, K_); });
+      with_joint_rows(block.kind, [&](auto joint) { add(joint, block); });
     }
   }
   k.resize(R_WB.size(), Vec6::Zero());
-  K_.column_norms(part.bodies, R_WB, k);
+  K_.column_norms(part.bodies, scene.bodies, R_WB, k);
 }
 
 StiffnessLeader StiffnessStage::bound(const Scene& scene, std::span<const int> bodies,

@@ -19,14 +19,16 @@ class StiffnessStage {
   /// @param blocks of the part, with lambda and the matching geometry
   /// @param k out, per body of the part: linear [N/m], then angular about the principal axes
   /// [N m/rad]
-  void evaluate(std::span<const Block> blocks, ContactTerms terms, const Part& part,
-                std::span<const Mat3> R_WB, std::vector<Vec6>& k);
+  void evaluate(const Scene& scene, std::span<const Block> blocks, ContactTerms terms,
+                const Part& part, std::span<const Mat3> R_WB, std::vector<Vec6>& k);
   /// r = max k_i / M_ii over the moving ones of these bodies (Eq. 9).
   [[nodiscard]] static StiffnessLeader bound(const Scene& scene, std::span<const int> bodies,
                                              std::span<const Vec6> k);
   [[nodiscard]] const StiffnessMatrix& matrix() const { return K_; }
 
  private:
+  void add(auto joint, const Block& block);
+
   StiffnessMatrix K_;
 };
 

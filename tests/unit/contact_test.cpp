@@ -364,9 +364,9 @@ TEST(Contact, OnlyThePapersFormGivesASphereAngularStiffness) {
   blocks.all()[0].lambda[0] = 10.0;
   StiffnessStage stage(scene);
   std::vector<Vec6> k;
-  stage.evaluate(blocks.all(), ContactTerms::kExact, whole(scene), rotations(state), k);
+  stage.evaluate(scene, blocks.all(), ContactTerms::kExact, whole(scene), rotations(state), k);
   EXPECT_EQ(k[0], Vec6::Zero());
-  stage.evaluate(blocks.all(), ContactTerms::kPaper, whole(scene), rotations(state), k);
+  stage.evaluate(scene, blocks.all(), ContactTerms::kPaper, whole(scene), rotations(state), k);
   Vec6 expected;
   expected << 0.0, 0.0, 0.0, 5.0, 0.0, 5.0;  // [l][r] with l = 10 y, r = -0.5 y
   EXPECT_LT((k[0] - expected).norm(), 1e-14);

@@ -82,6 +82,56 @@ TEST(PrismaticJoint, GradientAndStiffnessMatchFiniteDifferences) {
   gradient_and_stiffness<PrismaticJoint>();
 }
 
+// Exchanged, the forces on both bodies are the same, and K that of the joint written the other way.
+TEST(PrismaticJoint, ExchangedExertsTheSameForces) {
+  Random random(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene = joined<PrismaticJoint>(random, trial % 4 == 0);
+    const State state = initial_state(scene);
+    const auto slide = [&]() -> PrismaticJoint& {
+      return std::get<PrismaticJoint>(scene.joints[0]);
+    };
+    {  // closed, but for the travel
+      PrismaticJoint& joint = slide();
+      const Quat q_a = state.q[0];
+      const bool to_world = joint.b == kWorld;
+      const Quat q_b = to_world ? Quat(Quat::Identity()) : Quat(state.q[1]);
+      const Vec3 x_b = to_world ? Vec3(Vec3::Zero()) : state.x[1];
+      joint.axis_a = q_a.conjugate() * (q_b * joint.axis_b);
+      joint.across_a = q_a.conjugate() * (q_b * joint.across_b);
+      const Vec3 at = x_b + q_b * (joint.anchor_b + uniform(random, -1.0, 1.0) * joint.axis_b);
+      joint.anchor_a = q_a.conjugate() * (at - state.x[0]);
+    }
+    Blocks blocks;
+    joint_rows(scene)(state, blocks);
+    Block& block = blocks.all()[0];
+    for (int row = 0; row < block.rows; ++row) block.lambda[row] = uniform(random, 0.5, 2.0);
+    Blocks exchanged;
+    PrismaticJoint& joint = slide();
+    std::swap(joint.a, joint.b);
+    std::swap(joint.anchor_a, joint.anchor_b);
+    std::swap(joint.axis_a, joint.axis_b);
+    std::swap(joint.across_a, joint.across_b);
+    joint_rows(scene)(state, exchanged);
+    const Block found = PrismaticRows::exchanged(block);
+    Block& expected = exchanged.all()[0];
+    std::copy_n(found.lambda, kMaxRows, expected.lambda);
+    for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body) {
+      EXPECT_LT((force_on(blocks, body) - force_on(exchanged, body)).norm(), 1e-13);
+    }
+    StiffnessMatrix K;
+    StiffnessMatrix K_expected;
+    for (StiffnessMatrix* of : {&K, &K_expected}) of->clear(scene.bodies.size());
+    PrismaticRows::stiffness(found, K);
+    PrismaticRows::stiffness(expected, K_expected);
+    for (int row = 0; row < static_cast<int>(scene.bodies.size()); ++row) {
+      for (int col = 0; col < static_cast<int>(scene.bodies.size()); ++col) {
+        EXPECT_LT((K.block(row, col) - K_expected.block(row, col)).norm(), 1e-13);
+      }
+    }
+  }
+}
+
 /// d2phi/dt2 of a joint against its errors a little earlier and later, at constant velocities.
 template <class JointType>
 void curvature() {

@@ -29,8 +29,14 @@ TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
         dense.block<6, 6>(6 * row, 6 * col) += block;
       }
     }
+    // With unit masses and moments, each column has its plain norm.
+    std::vector<Body> bodies(2);
+    for (Body& body : bodies) {
+      body.mass = 1.0;
+      body.inertia = Vec3::Ones();
+    }
     std::vector<Vec6> k(2);
-    K.column_norms(std::vector{0, 1}, R, k);
+    K.column_norms(std::vector{0, 1}, bodies, R, k);
     for (int body = 0; body < 2; ++body) {
       for (int other = 0; other < 2; ++other) {
         EXPECT_LT((K.block(other, body) - dense.block<6, 6>(6 * other, 6 * body)).norm(), 1e-15);
@@ -44,6 +50,46 @@ TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
         }
       }
     }
+  }
+}
+
+// Columns of M^-1/2 K M^-1/2, in any unit of length.
+TEST(StiffnessMatrix, NormsDoNotDependOnTheUnitOfLength) {
+  Random random(12);
+  const std::vector<Mat3> R{random_rotation(random).toRotationMatrix(),
+                            random_rotation(random).toRotationMatrix()};
+  std::vector<Body> bodies(2);
+  Mat6 blocks[2][2];
+  for (int i = 0; i < 2; ++i) {
+    bodies[index(i)].mass = uniform(random, 0.1, 10.0);
+    bodies[index(i)].inertia = random_vector(random).cwiseAbs() + Vec3::Constant(0.1);
+    for (int j = 0; j < 2; ++j) blocks[i][j] = Mat6::Random();
+  }
+  const auto norms = [&](double length) {  // of one metre
+    StiffnessMatrix K;
+    K.clear(2);
+    Vec6 unit;
+    unit << Vec3::Ones(), Vec3::Constant(length);
+    std::vector<Body> scaled = bodies;
+    for (Body& body : scaled) body.inertia *= length * length;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) K.add(i, j, unit.asDiagonal() * blocks[i][j] * unit.asDiagonal());
+    }
+    std::vector<Vec6> k(2);
+    K.column_norms(std::vector{0, 1}, scaled, R, k);
+    for (int body = 0; body < 2; ++body) k[index(body)].tail<3>() /= length * length;
+    return k;
+  };
+  for (int body = 0; body < 2; ++body) {
+    const Vec6 in_metres = norms(1.0)[index(body)];
+    EXPECT_LT((norms(1e3)[index(body)] - in_metres).norm(), 1e-12 * in_metres.norm());
+    // The force by a rotation about one axis, of a body of little mass: it determines the norm.
+    bodies[index(body)].mass *= 1e-12;
+    const Vec3 force = blocks[body][body].topRightCorner<3, 3>() * R[index(body)].col(0);
+    const double expected =
+        std::sqrt(bodies[index(body)].inertia[0] / bodies[index(body)].mass) * force.norm();
+    EXPECT_NEAR(norms(1.0)[index(body)][3], expected, 1e-5 * expected);
+    bodies[index(body)].mass *= 1e12;
   }
 }
 

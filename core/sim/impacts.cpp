@@ -117,7 +117,7 @@ ContactWork Simulator::Impl::work_of_contacts(const Substep& sub, std::span<cons
 bool Simulator::Impl::lower_impacts(Substep& sub, std::span<const InverseMass> masses,
                                     FrameReport& report) {
   const auto work = [&] {
-    impact_solver().find_impulses(sub.rows);
+    report.work.flops += impact_solver().find_impulses(sub.rows);
     return work_of_contacts(sub, sub.rows, u_star, sub.u_before, true);
   };
   const auto solve = [&](double share) {

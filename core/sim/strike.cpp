@@ -244,7 +244,7 @@ bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
     return solve_impacts(sub, impact_rows.all(), u_meeting, masses, report);
   };
   const auto work = [&] {
-    impact_solver().find_impulses(impact_rows.all());
+    report.work.flops += impact_solver().find_impulses(impact_rows.all());
     return work_of_contacts(sub, impact_rows.all(), u_star, u_meeting, false);
   };
   u_star.assign(u_meeting.begin(), u_meeting.end());

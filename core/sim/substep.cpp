@@ -109,7 +109,7 @@ bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   }
   if (sub.outputs_needed || sub.probing || schedule.clock().needs_stiffness() ||
       starts_from_last_forces(sub.settings) || springs_are_stored(sub)) {
-    solver->find_impulses(sub.rows);
+    report.work.flops += solver->find_impulses(sub.rows);
   }
   sub.smooth = sub.struck.empty() &&
                (!contact || std::none_of(sub.rows.begin(), sub.rows.end(), [&](const Block& block) {

@@ -97,10 +97,7 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
     find_active_set(system, settings, report);
   }
   if (report.status == SolveStatus::kOverLimits) return report;
-  if (!any_contact_ && ldlt_.held()) {
-    ldlt_.refine(system);
-    has_impulses_ = true;
-  }
+  if (!any_contact_ && ldlt_.held()) ldlt_.refine(system);
   report.factorisations = ldlt_.factorisations();
   report.flops += ldlt_.flops();
   return report;
@@ -144,8 +141,11 @@ bool Bpp::better_than_none(const System& system) const {
   return energy < 0.0;
 }
 
-void Bpp::find_impulses(std::span<Block> blocks) {
-  if (!has_impulses_) ldlt_.find_impulses(blocks);
+std::int64_t Bpp::find_impulses(std::span<Block> blocks) {
+  if (has_impulses_) return 0;
+  const std::int64_t before = ldlt_.flops();
+  ldlt_.find_impulses(blocks);
+  return ldlt_.flops() - before;
 }
 
 bool Bpp::over_limits(const System& system, SolveReport& report) const {

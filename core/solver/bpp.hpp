@@ -25,7 +25,7 @@ class Bpp final : public Solver {
   SolveReport find_velocities(const System& system, const Settings& settings) override;
   /// Without contacts the factor is used again.
   SolveReport find_velocities_again(const System& system, const Settings& settings) override;
-  void find_impulses(std::span<Block> blocks) override;
+  std::int64_t find_impulses(std::span<Block> blocks) override;
 
  private:
   /// Starts from the current active set and factor.

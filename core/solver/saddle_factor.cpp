@@ -14,9 +14,6 @@ namespace {
 // Exact rows that are redundant on their node's body, as in closed loops of exact joints, may be
 // independent in the whole system. Below this fraction of J A^-1 J^T a pivot is taken for zero.
 constexpr double kLeastPivot = 1e-8;
-// Then all rows are softened by this fraction of their mobility, which causes a relative error of
-// the same size, and rounding errors of 1e-16 over it. refine() removes both.
-constexpr double kFair = 1e-9;
 
 // Clears an even number of values in pairs; memset would be a call in WebAssembly.
 void set_zero(double* to, int n) {
@@ -139,9 +136,9 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
   if (node.folds || node.n_rows != node.counted_rows) count(node);
 }
 
-// The softness of a row for equal shares among redundant ones: the mean mobility of the rows of its
-// joint of the same unit, so that neither the units nor the axes of the scene matter.
-double SaddleLdlt::fair_softness(const Block& block, int row) const {
+// Of the rows of a joint of the same unit: equal softness for equal shares among redundant rows, so
+// that neither the units nor the axes of the scene matter.
+double SaddleLdlt::mean_mobility(const Block& block, int row) const {
   const bool moves = row < block.position_rows;
   const int first = moves ? 0 : block.position_rows;
   const int end = moves ? block.position_rows : block.rows;
@@ -149,14 +146,14 @@ double SaddleLdlt::fair_softness(const Block& block, int row) const {
   for (int i = first; i < end; ++i) {
     sum += mobility_of(block, i, inverse_mass_);
   }
-  return kFair * sum / (end - first);
+  return sum / (end - first);
 }
 
-void SaddleLdlt::soften(const Node& node, std::span<const Block> blocks) {
+void SaddleLdlt::soften(const Node& node, std::span<const Block> blocks, double share) {
   const Factor f = at(node);
   for (int i = 0; i < node.n_rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
-    f.S[i * node.n_rows + i] += fair_softness(blocks[index(row.attached->block)], row.row);
+    f.S[i * node.n_rows + i] += share * mean_mobility(blocks[index(row.attached->block)], row.row);
   }
 }
 
@@ -166,12 +163,12 @@ void SaddleLdlt::factor_rows(const Node& node, std::span<const Block> blocks, au
                              const auto& form) {
   const Factor f = at(node);
   form();
-  if (softened_) soften(node, blocks);
+  if (softened_ > 0.0) soften(node, blocks, softened_);
   if (!factor_ldlt(f.S, rows, f.S_inverse)) return;
   held_ = true;
   if (node.has_contacts) return;
   form();
-  soften(node, blocks);
+  soften(node, blocks, kSoftened);
   factor_ldlt(f.S, rows, f.S_inverse);
 }
 

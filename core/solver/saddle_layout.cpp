@@ -61,6 +61,7 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   found_.reserve(blocks);
   u_begun_.reserve(bodies);
   u_found_.reserve(bodies);
+  u_solved_.reserve(bodies);
   u_earlier_.reserve(bodies);
 }
 
@@ -101,7 +102,8 @@ bool SaddleLdlt::begin(const System& system) {
   flops_ = 0;
   factorisations_ = 0;
   factored_ = false;
-  held_ = softened_ = false;
+  held_ = refined_ = false;
+  softened_ = 0.0;
   inverse_mass_ = system.inverse_mass;
   u_star_.resize(system.u.size());
   copy(system.u, u_star_);

@@ -52,14 +52,15 @@ class SaddleLdlt {
   /// If that would exceed the work in System::limits, only flops(), a lower bound, is valid.
   void solve(const System& system);
   /// Computes the impulses that solve() skips because no velocity depends on them: those of
-  /// articulated or folded joints.
+  /// articulated or folded joints; after refine() all of them, those of redundant rows with the
+  /// least norm.
   void find_impulses(std::span<Block> blocks);
 
   /// True if a pivot was clamped since `begin`: rows are redundant, and the solution is that of
   /// softer ones.
   [[nodiscard]] bool held() const { return held_; }
-  /// Removes the softness by iterative refinement, and gives redundant rows the impulses of least
-  /// norm; all rows are free. Computes all impulses. May be called again with another bias.
+  /// Removes the softness by iterative refinement; all rows are free. May be called again with
+  /// another bias.
   void refine(const System& system);
 
   /// Floating-point operations since `begin`.
@@ -69,6 +70,10 @@ class SaddleLdlt {
   [[nodiscard]] std::span<const Vec6> u_star() const { return u_star_; }
 
  private:
+  /// If a pivot is clamped, all rows of its node are softened by this share of their mobility, in
+  /// refine() those of all nodes outside trees. It causes a relative error of the same size, and
+  /// rounding errors of 1e-16 over it.
+  static constexpr double kSoftened = 1e-8;
   enum class NodeKind : std::uint8_t { kArticulated, kLeaf, kGeneral };
   /// A constraint, stored at the node of its first-eliminated body.
   struct Attached {
@@ -195,8 +200,9 @@ class SaddleLdlt {
   /// Factors the rows of a node. @param form computes S, Z and the minimum pivots
   void factor_rows(const Node& node, std::span<const Block> blocks, auto rows, const auto& form);
   /// Softens all rows of a node whose S is formed, and not yet factored.
-  void soften(const Node& node, std::span<const Block> blocks);
-  [[nodiscard]] double fair_softness(const Block& block, int row) const;
+  /// @param share of the mobility
+  void soften(const Node& node, std::span<const Block> blocks, double share);
+  [[nodiscard]] double mean_mobility(const Block& block, int row) const;
 
   void set_momenta(std::span<const Block> blocks);
   [[nodiscard]] Vec6* of_body(int body);
@@ -209,8 +215,13 @@ class SaddleLdlt {
   void backward_rows(const Node& node, const Factor& f, auto rows, auto n, std::span<Block> blocks,
                      double* change);
 
+  /// Solves with rows outside articulated nodes softened by this share of their mobility.
+  void solve_softened(double share, const System& system);
   /// Adds corrections to the solution of the softened rows.
-  void correct(const System& system);
+  /// @param consistent the rows can be met: corrections may be large
+  void correct(const System& system, bool consistent);
+  void find_unique_impulses(std::span<Block> blocks);
+  void find_least_impulses(std::span<Block> blocks);
   /// Sets u* to the velocity under the current impulses, and sets up the system for their
   /// correction. @return its largest |w| at zero correction [m/s, rad/s]
   double start_correction(const System& system);
@@ -231,7 +242,8 @@ class SaddleLdlt {
   std::vector<ArticulatedJoint> joints_;  // nodes point to them
   bool any_folded_ = false;
   bool held_ = false;      // a pivot
-  bool softened_ = false;  // all rows but those of articulated nodes
+  bool refined_ = false;   // refine() found the velocities
+  double softened_ = 0.0;  // share of its mobility by which every row outside articulated nodes is
   std::vector<double> values_;
   std::int64_t flops_ = 0;
   int factorisations_ = 0;
@@ -253,9 +265,11 @@ class SaddleLdlt {
     double earlier[kMaxRows];  // before the previous correction
   };
   std::vector<RowValues> found_;  // per block
-  std::vector<Vec6> u_begun_;     // u* of the system
-  std::vector<Vec6> u_found_;     // u+
-  std::vector<Vec6> u_earlier_;   // u+ before the last correction
+  System of_refine_;
+  std::vector<Vec6> u_begun_;    // u* of the system
+  std::vector<Vec6> u_found_;    // u+
+  std::vector<Vec6> u_solved_;   // u+ of find_least_impulses()
+  std::vector<Vec6> u_earlier_;  // u+ before the last correction
 };
 
 }  // namespace substep

@@ -51,59 +51,75 @@ double SaddleLdlt::start_correction(const System& system) {
   return largest;
 }
 
-// Redundant rows have no unique impulses. All rows of loops become springs, w = J u+ + s x + bias =
-// -e x with e = 1e-9 of their mobility, and the impulses are a starting point: with x = x0 + d and
-// u0 = u* + Mt^-1 J^T x0, the remaining d solves
+// All rows of loops become springs, w = J u+ + s x + bias = -e x with e a share of their mobility,
+// and the impulses are a starting point: with x = x0 + d and u0 = u* + Mt^-1 J^T x0, the remaining
+// d solves
 //   J (u0 + Mt^-1 J^T d) + s d + (bias + s x0) = 0,
-// with the same factor. From zero impulses this proximal-point iteration converges to those of
-// least norm among the solutions (Rockafellar 1976), with e as weights: they are a smooth function
-// of the pose. The error falls by the ratio of e to the row's effective J Mt^-1 J^T in the whole
-// system, slowly only close to a singular pose. With contradictory rows it does not fall, or the
-// solution would change strongly; then the softened solution is kept.
+// with the same factor. The error falls by the ratio of e to the row's effective J Mt^-1 J^T in the
+// whole system, slowly only close to a singular pose. With contradictory rows it does not fall, or
+// the solution would change strongly; then the softened solution is kept.
 void SaddleLdlt::refine(const System& system) {
   const std::span<Block> blocks = system.blocks;
-  if (softened_) {  // another bias for the same system
+  found_.resize(blocks.size());
+  u_begun_.resize(u_star_.size());
+  u_found_.resize(u_star_.size());
+  u_earlier_.resize(u_star_.size());
+  if (refined_) {  // another bias for the same system
     copy(system.u, u_star_);
     read(blocks);
-  } else {
-    softened_ = true;
+  }
+  copy(u_star_, u_begun_);
+  solve_softened(kSoftened, system);
+  correct(system, false);
+  copy(system.u, u_found_);
+  refined_ = true;
+  of_refine_ = system;
+}
+
+void SaddleLdlt::solve_softened(double share, const System& system) {
+  if (softened_ != share) {
+    softened_ = share;
     factored_ = false;
     for (Node& node : nodes_) node.dirty = node.kind != NodeKind::kArticulated;
   }
-  found_.resize(blocks.size());
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    std::copy_n(blocks[k].bias, kMaxRows, found_[k].given);
-  }
-  u_begun_.resize(u_star_.size());
-  u_earlier_.resize(u_star_.size());
-  copy(u_star_, u_begun_);
   solve(system);
-  correct(system);
-  // Redundant rows that disagree, if only by rounding, have been pulling at each other. Again, for
-  // the speeds that were found: these agree.
-  u_found_.resize(u_star_.size());
-  copy(system.u, u_found_);
+}
+
+// Redundant rows have no unique impulses. From zero impulses, the proximal-point iteration of
+// refine() converges to those of least norm among the solutions (Rockafellar 1976), with e as
+// weights: they are a smooth function of the pose. Those that found the velocities also contain
+// what redundant rows, which disagree, if only by rounding, pull at each other: the more, the
+// smaller e. The rows are therefore solved again for the speeds that were found, on which they
+// agree, with an e so large that rounding does not matter.
+void SaddleLdlt::find_least_impulses(std::span<Block> blocks) {
+  constexpr double kShare = 1e-6;
+  u_solved_.resize(u_found_.size());
+  System system = of_refine_;
+  system.blocks = blocks;
+  system.u = u_solved_;
+  system.limits = {};
   copy(u_begun_, u_star_);
-  for (Block& block : blocks) {
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    Block& block = blocks[k];
+    std::copy_n(block.bias, kMaxRows, found_[k].given);
     double w[kMaxRows];
-    row_speeds(block, system.u, w);
+    row_speeds(block, u_found_, w);
     for (int row = 0; row < block.rows; ++row) {
       block.bias[row] = -(w[row] + block.softness[row] * block.impulse[row]);
     }
     flops_ += residual_flops(block);
   }
   read(blocks);
-  solve(system);
-  correct(system);
-  copy(u_found_, system.u);
+  solve_softened(kShare, system);
+  correct(system, true);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::copy_n(found_[k].given, kMaxRows, blocks[k].bias);
   }
 }
 
-void SaddleLdlt::correct(const System& system) {
+void SaddleLdlt::correct(const System& system, bool consistent) {
   const std::span<Block> blocks = system.blocks;
-  find_impulses(blocks);
+  find_unique_impulses(blocks);
   copy(u_star_, u_begun_);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::copy_n(blocks[k].bias, kMaxRows, found_[k].bias);
@@ -114,7 +130,8 @@ void SaddleLdlt::correct(const System& system) {
       std::copy_n(blocks[k].impulse, kMaxRows, found_[k].impulse);
     }
     const double left = start_correction(system);
-    const bool better = i == 0 || (left < kFalls * last && is_near(system.u, u_earlier_));
+    const bool better =
+        i == 0 || (left < kFalls * last && (consistent || is_near(system.u, u_earlier_)));
     if (!better) copy(u_earlier_, system.u);
     const bool goes_on =
         better && i < kMostCorrections && !(left <= kAttainable * largest_of(system.u));
@@ -122,7 +139,7 @@ void SaddleLdlt::correct(const System& system) {
       copy(system.u, u_earlier_);
       read(blocks);
       solve(system);
-      find_impulses(blocks);
+      find_unique_impulses(blocks);
     }
     for (std::size_t k = 0; k < blocks.size(); ++k) {
       Block& block = blocks[k];

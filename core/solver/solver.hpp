@@ -18,8 +18,8 @@ class Solver {
   virtual void reserve(std::size_t bodies, std::size_t blocks) = 0;
   /// Computes velocities and all impulses.
   SolveReport solve(const System& system, const Settings& settings) {
-    const SolveReport report = find_velocities(system, settings);
-    if (report.status != SolveStatus::kOverLimits) find_impulses(system.blocks);
+    SolveReport report = find_velocities(system, settings);
+    if (report.status != SolveStatus::kOverLimits) report.flops += find_impulses(system.blocks);
     return report;
   }
   /// Computes velocities. Joint impulses on which no velocity depends may be left unset.
@@ -28,8 +28,8 @@ class Solver {
   virtual SolveReport find_velocities_again(const System& system, const Settings& settings) {
     return find_velocities(system, settings);
   }
-  /// Computes those impulses for the blocks of the last solved system.
-  virtual void find_impulses(std::span<Block> /*blocks*/) {}
+  /// Computes those impulses for the blocks of the last solved system. @return operations
+  virtual std::int64_t find_impulses(std::span<Block> /*blocks*/) { return 0; }
 };
 
 inline std::unique_ptr<Solver> make_solver(SolverKind kind) { return entry_of(kind).make.call(); }

@@ -83,6 +83,11 @@ void StiffnessMatrix::column_norms(std::span<const int> moving, std::span<const 
       }
       const Mat6& K = whole_[at];
       const auto row = index(pairs_[at].row);
+      if (bodies[row].is_static) {  // its mass is infinite
+        add_squares(K.topLeftCorner<3, 3>(), R, one, sum.head<3>());
+        add_squares(K.bottomRightCorner<3, 3>(), R, one, sum.tail<3>());
+        continue;
+      }
       const Vec3 per_inertia = bodies[row].inertia.cwiseInverse().cwiseSqrt();
       const Mat3 torques =
           per_inertia.asDiagonal() * R_WB[row].transpose() * K.bottomLeftCorner<3, 3>();

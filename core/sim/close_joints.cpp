@@ -11,9 +11,23 @@ namespace {
 
 constexpr int kMostClosings = 30;        // solves
 constexpr double kNearRounding = 1e-12;  // of gaps, relative to the size of a joint
+constexpr double kOpen = 1e-10;          // likewise, of a joint that is not closed
+constexpr double kOpens = 10.0;          // by this factor, if the sub-step is too long for it
 
 /// The size of a joint, below whose rounding its gap cannot be told from zero [m].
 double size_of(const Block& block) { return block.r_a.norm() + block.r_b.norm(); }
+
+/// The largest gap of the rows that are not springs, relative to the joint's size, or angle.
+double largest_gap(const Block& block, const double* gaps) {
+  const double size = size_of(block);
+  double largest = 0.0;
+  for (int row = 0; row < block.rows; ++row) {
+    if (block.C[row] > 0.0) continue;
+    const double scale = row < block.position_rows ? size : 1.0;
+    largest = std::max(largest, scale > 0.0 ? std::abs(gaps[row]) / scale : 0.0);
+  }
+  return largest;
+}
 
 }  // namespace
 
@@ -29,9 +43,14 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
                                    SolveReport& solved) {
   const auto closes = [](const Block& block) { return !block.is_contact() && !is_grab(block); };
   double last = std::numeric_limits<double>::infinity();
+  double before = 0.0;  // largest gap, as below
+  for (const Block& block : system.blocks) {
+    if (closes(block)) before = std::max(before, largest_gap(block, block.phi));
+  }
+  const double most = std::max(kOpen, kOpens * before);
   for (int solves = 1; solves < kMostClosings && solved.status < SolveStatus::kUnsolved; ++solves) {
     predict_motions(sub);
-    double largest = 0.0;  // relative to the joint's size, or angle
+    double largest = 0.0;
     gaps.clear();
     for (const Block& block : system.blocks) {
       gaps.emplace_back();
@@ -40,12 +59,11 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
       moved_errors(block, motions.of(block.a), motions.of(block.b), gained);
       for (int row = 0; row < block.rows; ++row) {
         if (block.C[row] > 0.0) continue;  // a spring yields
-        const double gap = block.phi[row] + gained[row];
-        gaps.back().of[row] = gap;
-        const double size = row < block.position_rows ? size_of(block) : 1.0;
-        largest = std::max(largest, size > 0.0 ? std::abs(gap) / size : 0.0);
+        gaps.back().of[row] = block.phi[row] + gained[row];
       }
+      largest = std::max(largest, largest_gap(block, gaps.back().of));
     }
+    joints_open = !(std::min(largest, last) <= most);
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
     if (largest <= kRounding) return;
     // Near a singular pose it converges slowly; near rounding a small gain is noise.

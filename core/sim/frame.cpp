@@ -187,16 +187,19 @@ RotationBound Simulator::Impl::rotation_bound(std::span<const int> bodies) const
   return heeds_rotation() ? rotation->bound(*scene, bodies, state) : RotationBound{};
 }
 
-double Simulator::Impl::watch_substep() {
+double Simulator::Impl::watch_substep(const Substep& sub) {
   const bool watches = watches_substeps(settings);
   if (!watches && !decides_again(settings)) return 0.0;
-  double most = 0.0;
+  // Joints that do not close need half the length.
+  const double closing =
+      joints_open ? 16.0 * settings.alpha / (sub.planned_dt * sub.planned_dt) : 0.0;
+  double most = closing;
   for (const int body : schedule.part().moving) {
     const double r_rotation = rotation_bound({&body, 1}).r;
     most = std::max(most, r_rotation);
     if (!watches) continue;
     double& r = r_in_frame[index(body)];
-    r = std::max({r, r_rotation, StiffnessStage::bound(*scene, {&body, 1}, state.k).r});
+    r = std::max({r, closing, r_rotation, StiffnessStage::bound(*scene, {&body, 1}, state.k).r});
   }
   return most;
 }

@@ -24,7 +24,7 @@ FrameReport Simulator::Impl::advance(Share share) {
     if (schedule.clock().needs_stiffness() && !evaluate_stiffness(sub, report)) break;
     advance_poses(sub, report);
     spent += static_cast<double>(report.work.flops - before) + work_beside_solver(sub);
-    schedule.advance(bound.r, watch_substep());  // re-evaluates N with policy substep
+    schedule.advance(bound.r, watch_substep(sub));  // re-evaluates N with policy substep
     if (!schedule.running() && schedule.exceeded()) begin_again(report);  // with a larger N
   }
   return end(wall, share.whole());

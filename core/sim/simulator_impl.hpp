@@ -185,9 +185,9 @@ struct Simulator::Impl {
   void begin_again(FrameReport& report);  // the frame, with the N that r_in_frame requires
   bool heeds_rotation() const;            // true if N depends on rotation
   RotationBound rotation_bound(std::span<const int> bodies) const;  // zero if the setting is off
-  /// Updates r_in_frame after a sub-step. @return bound of the rotation criterion at its end, 0 if
-  /// nothing reads it [1/s^2]
-  double watch_substep();
+  /// Updates r_in_frame after a sub-step. @return bound of the rotation criterion at its end, or of
+  /// joints that did not close, 0 if nothing reads it [1/s^2]
+  double watch_substep(const Substep& sub);
   bool is_at_rest(std::span<const int> island) const;
   void put_to_rest(std::span<const int> island);
   void keep_forces_at_rest();
@@ -247,6 +247,7 @@ struct Simulator::Impl {
   Motions motions;                      // of the sub-step, likewise
   std::vector<RowGaps> gaps;            // likewise, per block
   std::vector<RowGaps> corrected;       // by the last of them
+  bool joints_open = false;             // the sub-step is too long for them to close
 
   // With contacts found along the motion.
   std::unique_ptr<SweptContacts> swept;   // built on first use

@@ -146,6 +146,7 @@ bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
   sub.integrator->extend(system, sub, state);
   system.frame_share = sub.dt / scene->frame;
   const bool closes = drift_law(sub.settings) == Drift::kExact && joints && !sub.probing;
+  joints_open = false;
   if (closes) copy(state.u, u_star);
   SolveReport solved = solver->find_velocities(system, sub.settings);
   if (closes) close_joints(sub, system, *solver, solved);

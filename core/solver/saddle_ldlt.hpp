@@ -73,7 +73,7 @@ class SaddleLdlt {
   /// If a pivot is clamped, all rows of its node are softened by this share of their mobility, in
   /// refine() those of all nodes outside trees. It causes a relative error of the same size, and
   /// rounding errors of 1e-16 over it.
-  static constexpr double kSoftened = 1e-8;
+  static constexpr double kSoftened = 1e-9;
   enum class NodeKind : std::uint8_t { kArticulated, kLeaf, kGeneral };
   /// A constraint, stored at the node of its first-eliminated body.
   struct Attached {

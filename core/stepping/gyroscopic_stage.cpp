@@ -17,6 +17,14 @@ constexpr double kMaxPredictedTurn = 0.2;
 
 bool is_zero(const Vec3& v) { return v.isZero(0.0); }
 
+// True unless a body rotates about a principal axis, as in planar motion, but for rounding or a
+// disturbance of that size.
+bool leaves_axis(const Vec3& I, const Vec3& omega_B) {
+  constexpr double kAngle = 1e-6;  // from the axis [rad]
+  const double most = kAngle * omega_B.norm() * I.cwiseProduct(omega_B).norm();
+  return gyroscopic_torque(I, omega_B).norm() > most;
+}
+
 // A sub-step is solved with the gradients at its start, which leaves an error dt^2/2 phi''. In
 // planar motion this is a constant offset along the joint's arm. In 3D the force acts at that
 // offset from the joint, and angular momentum and energy drift. The rows are therefore set up at
@@ -44,13 +52,13 @@ bool closes_loops(const Substep& sub) {
   return joined > std::ssize(sub.part->moving);
 }
 
-bool any_out_of_axis(const Substep& sub, const State& state) {
+bool any_leaves_axis(const Substep& sub, const State& state) {
   const std::vector<int>& moving = sub.part->moving;
   return std::any_of(moving.begin(), moving.end(), [&](int body) {
     const std::size_t i = index(body);
     if (!tumbles(sub, i)) return false;
     const Vec3 omega_B = sub.R_WB[i].transpose() * state.u[i].tail<3>();
-    return !is_zero(gyroscopic_torque(sub.scene->bodies[i].inertia, omega_B));
+    return leaves_axis(sub.scene->bodies[i].inertia, omega_B);
   });
 }
 
@@ -83,7 +91,7 @@ void GyroscopicStage::begin(const Substep& sub, State& state) {
     spins_.resize(state.u.size());
     const bool damps =
         sub.settings.solver == SolverKind::kNewton && sub.settings.forces == Forces::kEnd;
-    loops_bend_ = bends_rows(sub) && closes_loops(sub) && any_out_of_axis(sub, state);
+    loops_bend_ = bends_rows(sub) && closes_loops(sub) && any_leaves_axis(sub, state);
     for (const int body : sub.part->moving) {
       if (tumbles(sub, index(body))) predict(sub, index(body), damps, state);
     }
@@ -108,6 +116,7 @@ void GyroscopicStage::predict(const Substep& sub, std::size_t i, bool damps, Sta
   spin.omega = spin.before = state.u[i].tail<3>();
   if (!is_zero(gyroscopic_torque(I, omega_B)) || loops_bend_) {
     spin.out_of_axis = true;
+    spin.bends = loops_bend_ || leaves_axis(I, omega_B);
     spin.damped = damps || sub.dt * state.u[i].tail<3>().norm() > kMaxPredictedTurn ||
                   changes_mass_of(i, *sub.scene, sub.settings, state, sub.dt);
     spin.momentum = momentum_after(I, omega_B, state.dt_previous_of(i));
@@ -149,6 +158,7 @@ Vec3 GyroscopicStage::strike(const Substep& sub, std::size_t i, const Vec3& spin
   spin.struck = I.cwiseProduct(spin_B) - spin.momentum;
   if (is_zero(spin.struck)) return spin.before;
   spin.out_of_axis = true;
+  spin.bends = leaves_axis(I, spin_B);
   aim(sub, i, spin_B);
   return spin.before;
 }
@@ -165,7 +175,7 @@ void GyroscopicStage::keep_strikes(const Substep& sub) {
 void GyroscopicStage::bend_rows(const Substep& sub) const {
   if (!bends_rows(sub)) return;
   const double dt = sub.dt;
-  const auto turns = [&](int body) { return body >= 0 && spins_[index(body)].out_of_axis; };
+  const auto turns = [&](int body) { return body >= 0 && spins_[index(body)].bends; };
   const auto predicted_turn = [&](int body) {
     Vec6 u = Vec6::Zero();
     if (body >= 0) {

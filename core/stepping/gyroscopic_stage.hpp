@@ -60,6 +60,7 @@ class GyroscopicStage {
     Vec3 before = Vec3::Zero();     // before forces and rows, after impacts, world [rad/s]
     Vec3 unstruck = Vec3::Zero();   // before impacts too, world [rad/s]
     bool out_of_axis = false;       // false: it rotates about a principal axis
+    bool bends = false;             // rows of its joints are set up at its predicted pose
     bool damped = false;            // its momentum is not kept
   };
   void predict(const Substep& sub, std::size_t body, bool damps, State& state);

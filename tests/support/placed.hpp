@@ -1,6 +1,7 @@
 #pragma once
-// Scenes moved, rotated and combined.
+// Scenes moved, rotated, combined and in other units.
 
+#include <variant>
 #include <vector>
 
 #include "core/model/scene.hpp"
@@ -20,6 +21,49 @@ inline Scene transformed(Scene scene, const Quat& R, const Vec3& by) {
     if (base(joint).b != kWorld) continue;
     base(joint).anchor_b = R * base(joint).anchor_b + by;
     if (auto* hinge = std::get_if<HingeJoint>(&joint)) hinge->axis_b = R * hinge->axis_b;
+  }
+  return scene;
+}
+
+/// The same scene in other units: masses times `mass`, lengths times `length`, times times `time`.
+/// A compliance is a length per force (time^2 / mass), an angular one an angle per torque.
+inline Scene in_units(Scene scene, double mass, double length, double time = 1.0) {
+  const double speed = length / time;
+  const double compliance = time * time / mass;
+  scene.frame *= time;
+  scene.gravity *= length / (time * time);
+  scene.contact.compliance *= compliance;
+  scene.contact.friction_compliance *= compliance;
+  scene.contact.margin *= length;
+  scene.contact.restitution_speed *= speed;
+  scene.regularisation /= mass;
+  scene.settings.drift_tau *= time;
+  Criteria criteria;
+  criteria.duration = scene.criteria.duration;
+  criteria.energy_gain = scene.criteria.energy_gain;
+  if (scene.criteria.joint_gap) criteria.joint_gap = *scene.criteria.joint_gap * length;
+  criteria.track = scene.criteria.track;
+  scene.criteria = criteria;
+  for (Body& body : scene.bodies) {
+    if (auto* sphere = std::get_if<Sphere>(&body.shape)) sphere->radius *= length;
+    if (auto* box = std::get_if<Box>(&body.shape)) box->half_extents *= length;
+    body.mass *= mass;
+    body.inertia *= mass * length * length;
+    body.position *= length;
+    body.velocity *= speed;
+    body.angular_velocity /= time;
+  }
+  for (Joint& joint : scene.joints) {
+    base(joint).anchor_a *= length;
+    base(joint).anchor_b *= length;
+    base(joint).compliance *= compliance;
+    std::visit(
+        [&](auto& of) {
+          if constexpr (requires { of.angular_compliance; }) {
+            of.angular_compliance *= compliance / (length * length);
+          }
+        },
+        joint);
   }
   return scene;
 }

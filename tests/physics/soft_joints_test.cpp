@@ -1,0 +1,279 @@
+// Chains of soft joints in space, with unequal moments, against the classical Runge-Kutta method.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/math/across.hpp"
+#include "tests/support/placed.hpp"
+#include "tests/support/run.hpp"
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+/// Joins the last two bodies, or the last one to the world, where they meet: closed at the start.
+Joint soft_joint(Random& random, const Scene& scene, std::size_t kind, int a, int b,
+                 const Vec3& at) {
+  const auto local = [&](int body, const Vec3& v) -> Vec3 {
+    return body == kWorld ? v : scene.bodies[index(body)].orientation.conjugate() * v;
+  };
+  const auto anchor = [&](int body) -> Vec3 {
+    return body == kWorld ? at : local(body, at - scene.bodies[index(body)].position);
+  };
+  const Vec3 axis = random_vector(random).normalized();
+  Vec3 side;
+  Vec3 third;
+  across(axis, side, third);
+  Joint joint;
+  if (kind == 1) {
+    HingeJoint hinge;
+    hinge.axis_a = local(a, axis);
+    hinge.axis_b = local(b, axis);
+    hinge.angular_compliance = uniform(random, 0.002, 0.01);
+    joint = hinge;
+  } else if (kind == 2) {
+    PrismaticJoint slide;
+    slide.axis_a = local(a, axis);
+    slide.axis_b = local(b, axis);
+    slide.across_a = local(a, side);
+    slide.across_b = local(b, side);
+    slide.angular_compliance = uniform(random, 0.002, 0.01);
+    joint = slide;
+  }
+  base(joint).name = "joint " + std::to_string(a);
+  base(joint).a = a;
+  base(joint).b = b;
+  base(joint).anchor_a = anchor(a);
+  base(joint).anchor_b = anchor(b);
+  base(joint).compliance = uniform(random, 2e-4, 1e-3);
+  return joint;
+}
+
+/// Three boxes that hang from the world by a ball joint, a hinge and a slide, in any order.
+Scene soft_chain(Random& random) {
+  Scene scene;
+  scene.frame = 1.0 / 60.0;
+  scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
+  scene.gravity = {0.0, -kGravity, 0.0};
+  const auto first = static_cast<std::size_t>(uniform(random, 0.0, 3.0));
+  Vec3 end = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 half{uniform(random, 0.2, 0.4), uniform(random, 0.1, 0.2),
+                    uniform(random, 0.03, 0.06)};
+    Body body = moving(Box{half}, uniform(random, 0.5, 2.0));
+    body.orientation = random_rotation(random);
+    const Vec3 arm = body.orientation * Vec3(half.x(), 0.0, 0.0);
+    body.position = end + arm;
+    scene.bodies.push_back(body);
+    scene.joints.push_back(soft_joint(random, scene, (first + index(i)) % 3, i, i - 1, end));
+    end += 2.0 * arm;
+  }
+  scene.criteria.track = 2;
+  return scene;
+}
+
+/// Two boxes of a hinge that is exact in position and soft in angle, in free flight.
+Scene free_pair(Random& random) {
+  Scene scene = soft_chain(random);
+  scene.effects.gravity = false;
+  scene.bodies.pop_back();
+  scene.joints.clear();
+  const Body& a = scene.bodies[0];
+  const Vec3 end = a.position + a.orientation * Vec3(std::get<Box>(a.shape).half_extents.x(), 0, 0);
+  scene.joints.push_back(soft_joint(random, scene, 1, 1, 0, end));
+  base(scene.joints[0]).compliance = 0.0;
+  const Vec3 spin = 5.0 * random_vector(random);
+  for (Body& body : scene.bodies) {
+    body.angular_velocity = spin;
+    body.velocity = spin.cross(body.position);
+  }
+  // About the axis, which is free, and about others, which are not: these bend the hinge.
+  scene.bodies[1].angular_velocity += 2.0 * random_vector(random);
+  scene.bodies[1].velocity +=
+      (scene.bodies[1].angular_velocity - spin).cross(scene.bodies[1].position - end);
+  scene.criteria.track = 1;
+  return scene;
+}
+
+/// Positions after `seconds`: forces -phi/C along the rows, angular momentum in world axes.
+std::vector<Vec3> by_runge_kutta(const Scene& scene, double seconds, int steps) {
+  struct Motion {
+    std::vector<Vec3> x, v, l;
+    std::vector<Eigen::Vector4d> q;
+  };
+  const std::size_t n = scene.bodies.size();
+  const Rows rows = joint_rows(scene);
+  State state = initial_state(scene);
+  Blocks blocks;
+  const auto omega = [&](std::size_t i, const Vec3& l) -> Vec3 {
+    const Quat& q = state.q[i];
+    return q * Vec3((q.conjugate() * l).cwiseQuotient(scene.bodies[i].inertia));
+  };
+  const auto slope = [&](const Motion& at) {
+    Motion out = at;
+    for (std::size_t i = 0; i < n; ++i) {
+      state.x[i] = at.x[i];
+      state.q[i].coeffs() = at.q[i].normalized();
+    }
+    rows(state, blocks);
+    for (Block& block : blocks.all()) {
+      for (int row = 0; row < block.rows; ++row) {
+        block.lambda[row] = -block.phi[row] / block.C[row];
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec6 force = force_on(blocks, static_cast<int>(i));
+      const Vec3 w = omega(i, at.l[i]);
+      out.x[i] = at.v[i];
+      out.v[i] = force.head<3>() / scene.bodies[i].mass + scene.gravity;
+      out.l[i] = force.tail<3>();
+      Quat q;
+      q.coeffs() = at.q[i];
+      out.q[i] = 0.5 * (Quat(0.0, w.x(), w.y(), w.z()) * q).coeffs();
+    }
+    return out;
+  };
+  const auto moved_by = [&](const Motion& from, double h, const Motion& along) {
+    Motion out = from;
+    for (std::size_t i = 0; i < n; ++i) {
+      out.x[i] += h * along.x[i];
+      out.v[i] += h * along.v[i];
+      out.l[i] += h * along.l[i];
+      out.q[i] += h * along.q[i];
+    }
+    return out;
+  };
+  Motion at;
+  for (std::size_t i = 0; i < n; ++i) {
+    at.x.push_back(state.x[i]);
+    at.q.push_back(state.q[i].coeffs());
+    at.v.push_back(scene.bodies[i].velocity);
+    const Vec3 w = scene.bodies[i].angular_velocity;
+    const Quat& q = state.q[i];
+    at.l.push_back(q * scene.bodies[i].inertia.cwiseProduct(q.conjugate() * w));
+  }
+  const double h = seconds / steps;
+  for (int k = 0; k < steps; ++k) {
+    const Motion k1 = slope(at);
+    const Motion k2 = slope(moved_by(at, 0.5 * h, k1));
+    const Motion k3 = slope(moved_by(at, 0.5 * h, k2));
+    const Motion k4 = slope(moved_by(at, h, k3));
+    at = moved_by(at, h / 6.0, k1);
+    at = moved_by(at, h / 3.0, k2);
+    at = moved_by(at, h / 3.0, k3);
+    at = moved_by(at, h / 6.0, k4);
+  }
+  return at.x;
+}
+
+double error_of(const Scene& scene, Settings settings, int n, double seconds,
+                const std::vector<Vec3>& expected) {
+  settings.mode = Mode::kConst;
+  settings.n = n;
+  const State end = run(scene, settings, seconds, {}, false).end;
+  double error = 0.0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    error = std::max(error, (end.x[i] - expected[i]).norm());
+  }
+  return error;
+}
+
+struct Method {
+  const char* name;
+  Settings settings;
+  double order;
+};
+std::vector<Method> methods() {
+  return {{"leapfrog", {.integrator = Integrator::kLeapfrog}, 2.0},
+          {"Störmer", {.integrator = Integrator::kStormer}, 4.0},
+          {"mean",
+           {.solver = SolverKind::kNewton,
+            .forces = Forces::kMean,
+            .integrator = Integrator::kLeapfrog},
+           2.0},
+          {"Numerov",
+           {.solver = SolverKind::kNewton,
+            .forces = Forces::kNumerov,
+            .integrator = Integrator::kLeapfrog},
+           2.0}};
+}
+
+TEST(SoftJoints, KeepTheOrderOfTheMethodInSpace) {
+  constexpr double kSeconds = 0.5;
+  constexpr double kFloor = 1e-10;
+  Random random(3);
+  for (int trial = 0; trial < 4; ++trial) {
+    const Scene scene = soft_chain(random);
+    const std::vector<Vec3> expected = by_runge_kutta(scene, kSeconds, 4000);
+    ASSERT_LT((expected[2] - by_runge_kutta(scene, kSeconds, 2000)[2]).norm(), 1e-8);
+    for (const Method& method : methods()) {
+      const auto error = [&](int n) {
+        return error_of(scene, method.settings, n, kSeconds, expected);
+      };
+      // Over four doublings.
+      const double coarse = error(16);
+      const double fine = error(256);
+      EXPECT_LT(fine, coarse / std::pow(2.0, 4.0 * (method.order == 2.0 ? 1.9 : 3.0)) + kFloor)
+          << method.name << ", chain " << trial << ": " << coarse << " to " << fine;
+    }
+  }
+}
+
+// Also after many sub-steps, whose softness is 1e8 times the mobility.
+TEST(SoftJoints, KeepTheMomentumOfAPair) {
+  Random random(4);
+  for (int trial = 0; trial < 4; ++trial) {
+    const Scene scene = free_pair(random);
+    const auto momentum = [&](const State& state, const std::vector<Vec6>& u) {
+      Vec6 sum = Vec6::Zero();
+      for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& body = scene.bodies[i];
+        const Quat& q = state.q[i];
+        sum.head<3>() += body.mass * u[i].head<3>();
+        sum.tail<3>() += body.mass * state.x[i].cross(Vec3(u[i].head<3>())) +
+                         q * body.inertia.cwiseProduct(q.conjugate() * Vec3(u[i].tail<3>()));
+      }
+      return sum;
+    };
+    const State start = initial_state(scene);
+    const Vec6 before = momentum(start, start.u);
+    for (const int n : {4, 256}) {
+      Settings settings{.mode = Mode::kConst, .integrator = Integrator::kStormer};
+      settings.n = n;
+      const State end = run(scene, settings, 0.5, {}, false).end;
+      const Vec6 change = momentum(end, end.u_synchronised) - before;
+      EXPECT_LT(change.head<3>().norm(), 1e-12 * before.norm()) << n;
+      EXPECT_LT(change.tail<3>().norm(), (n == 4 ? 1e-3 : 1e-9) * before.norm()) << n;
+    }
+  }
+}
+
+// A gram and a millimetre, two tonnes, inches.
+TEST(SoftJoints, DoNotDependOnUnits) {
+  Random random(5);
+  for (int trial = 0; trial < 2; ++trial) {
+    const Scene scene = soft_chain(random);
+    for (const Method& method : methods()) {
+      Settings settings = method.settings;
+      settings.mode = Mode::kConst;
+      settings.n = 16;
+      const State expected = run(scene, settings, 0.5, {}, false).end;
+      for (const auto& [mass, length] :
+           {std::pair{1e3, 1e3}, std::pair{2e3, 1.0}, std::pair{2.2, 39.37}}) {
+        Scene scaled = in_units(scene, mass, length);
+        scaled.contact.margin = scene.contact.margin;  // of no contact; it has a largest value
+        const State end = run(scaled, settings, 0.5, {}, false).end;
+        EXPECT_LT((end.x[2] / length - expected.x[2]).norm(), 1e-9)
+            << method.name << ": " << mass << ", " << length;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace substep::test

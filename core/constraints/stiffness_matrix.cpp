@@ -63,7 +63,8 @@ Mat6 StiffnessMatrix::block(int row, int col) const {
 
 // Norms of angular parts are invariant under rotation of the rows, so only the columns are rotated.
 void StiffnessMatrix::column_norms(std::span<const int> moving, std::span<const Body> bodies,
-                                   std::span<const Mat3> R_WB, std::span<Vec6> k) const {
+                                   std::span<const Mat3> R_WB, bool weighted,
+                                   std::span<Vec6> k) const {
   const auto add_squares = [](const Mat3& columns, const Mat3& R, const Vec3& weights, auto&& sum) {
     const Mat3 turned = columns * R;
     for (int c = 0; c < 3; ++c) {
@@ -83,11 +84,14 @@ void StiffnessMatrix::column_norms(std::span<const int> moving, std::span<const 
       }
       const Mat6& K = whole_[at];
       const auto row = index(pairs_[at].row);
-      if (bodies[row].is_static) {  // its mass is infinite
+      if (!weighted) {
         add_squares(K.topLeftCorner<3, 3>(), R, one, sum.head<3>());
+        add_squares(K.bottomLeftCorner<3, 3>(), R, one, sum.head<3>());
+        add_squares(K.topRightCorner<3, 3>(), R, one, sum.tail<3>());
         add_squares(K.bottomRightCorner<3, 3>(), R, one, sum.tail<3>());
         continue;
       }
+      if (bodies[row].is_static || bodies[col].is_static) continue;  // of infinite mass
       const Vec3 per_inertia = bodies[row].inertia.cwiseInverse().cwiseSqrt();
       const Mat3 torques =
           per_inertia.asDiagonal() * R_WB[row].transpose() * K.bottomLeftCorner<3, 3>();

@@ -30,13 +30,13 @@ class StiffnessMatrix {
   /// Adds a whole block. @param block [N/m, N/rad; N, N m/rad]
   void add(int row, int col, const Mat6& block);
 
-  /// K_d (Eq. 4): the 2-norm of every column, along the body's principal axes. Torques by a
-  /// translation and forces by a rotation are weighted as in M^-1/2 K M^-1/2, so that the unit of
-  /// length does not matter.
+  /// K_d (Eq. 4): the 2-norm of every column, along the body's principal axes.
+  /// @param weighted torques by a translation and forces by a rotation are weighted as in
+  /// M^-1/2 K M^-1/2, so that the unit of length does not matter
   /// @param moving bodies whose columns are evaluated  @param bodies all, with R_WB their rotations
   /// @param k out, 6 per body [N/m, N m/rad], >= 0
   void column_norms(std::span<const int> moving, std::span<const Body> bodies,
-                    std::span<const Mat3> R_WB, std::span<Vec6> k) const;
+                    std::span<const Mat3> R_WB, bool weighted, std::span<Vec6> k) const;
 
   [[nodiscard]] std::size_t bodies() const { return bodies_; }
   /// Number of blocks, zero ones on the diagonal included.

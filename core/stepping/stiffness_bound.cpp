@@ -34,7 +34,9 @@ void StiffnessStage::evaluate(const Scene& scene, std::span<const Block> blocks,
     }
   }
   k.resize(R_WB.size(), Vec6::Zero());
-  K_.column_norms(part.bodies, scene.bodies, R_WB, k);
+  // Results with whole blocks of contacts are those of plain norms.
+  const bool weighted = terms == ContactTerms::kPaper;
+  K_.column_norms(part.bodies, scene.bodies, R_WB, weighted, k);
 }
 
 StiffnessLeader StiffnessStage::bound(const Scene& scene, std::span<const int> bodies,

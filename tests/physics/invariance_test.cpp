@@ -316,7 +316,12 @@ TEST(Invariance, SubstepsDoNotDependOnUnitsOrTheOrderOfASlide) {
   slide.axis_a = slide.axis_b = Vec3::UnitX();
   slide.across_a = slide.across_b = Vec3::UnitY();
   scene.joints[1] = slide;
-  base(scene.joints[0]).compliance = 0.0;
+  Body pillar;
+  pillar.name = "pillar";
+  pillar.shape = Sphere{0.1};
+  pillar.is_static = true;
+  pillar.mass = 0.0;
+  scene.bodies.push_back(pillar);
   for (int i = 0; i < 2; ++i) {
     scene.bodies[index(i)].angular_velocity = {0.0, 0.0, 4.0};
     scene.bodies[index(i)].velocity = {0.0, 4.0 * (0.3 + 0.6 * i), 0.0};

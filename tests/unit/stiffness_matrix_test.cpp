@@ -36,7 +36,7 @@ TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
       body.inertia = Vec3::Ones();
     }
     std::vector<Vec6> k(2);
-    K.column_norms(std::vector{0, 1}, bodies, R, k);
+    K.column_norms(std::vector{0, 1}, bodies, R, before % 2 == 0, k);
     for (int body = 0; body < 2; ++body) {
       for (int other = 0; other < 2; ++other) {
         EXPECT_LT((K.block(other, body) - dense.block<6, 6>(6 * other, 6 * body)).norm(), 1e-15);
@@ -76,7 +76,7 @@ TEST(StiffnessMatrix, NormsDoNotDependOnTheUnitOfLength) {
       for (int j = 0; j < 2; ++j) K.add(i, j, unit.asDiagonal() * blocks[i][j] * unit.asDiagonal());
     }
     std::vector<Vec6> k(2);
-    K.column_norms(std::vector{0, 1}, scaled, R, k);
+    K.column_norms(std::vector{0, 1}, scaled, R, true, k);
     for (int body = 0; body < 2; ++body) k[index(body)].tail<3>() /= length * length;
     return k;
   };

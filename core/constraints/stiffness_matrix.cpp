@@ -65,13 +65,12 @@ Mat6 StiffnessMatrix::block(int row, int col) const {
 void StiffnessMatrix::column_norms(std::span<const int> moving, std::span<const Body> bodies,
                                    std::span<const Mat3> R_WB, bool weighted,
                                    std::span<Vec6> k) const {
-  const auto add_squares = [](const Mat3& columns, const Mat3& R, const Vec3& weights, auto&& sum) {
-    const Mat3 turned = columns * R;
+  const auto add_squares = [](const auto& columns, const Mat3& R, auto&& sum) {
+    const auto turned = (columns * R).eval();
     for (int c = 0; c < 3; ++c) {
-      for (int i = 0; i < 3; ++i) sum[c] += weights[c] * (turned(i, c) * turned(i, c));
+      for (int i = 0; i < turned.rows(); ++i) sum[c] += turned(i, c) * turned(i, c);
     }
   };
-  const Vec3 one = Vec3::Ones();
   for (const int body : moving) {
     const auto col = index(body);
     const Mat3& R = R_WB[col];
@@ -79,27 +78,25 @@ void StiffnessMatrix::column_norms(std::span<const int> moving, std::span<const 
     for (int e = body; e >= 0; e = pairs_[index(e)].next) {
       const auto at = index(e);
       if (whole_.empty()) {
-        add_squares(angular_[at], R, one, sum.tail<3>());
+        add_squares(angular_[at], R, sum.tail<3>());
         continue;
       }
       const Mat6& K = whole_[at];
-      const auto row = index(pairs_[at].row);
       if (!weighted) {
-        add_squares(K.topLeftCorner<3, 3>(), R, one, sum.head<3>());
-        add_squares(K.bottomLeftCorner<3, 3>(), R, one, sum.head<3>());
-        add_squares(K.topRightCorner<3, 3>(), R, one, sum.tail<3>());
-        add_squares(K.bottomRightCorner<3, 3>(), R, one, sum.tail<3>());
+        add_squares(K.leftCols<3>(), R, sum.head<3>());
+        add_squares(K.rightCols<3>(), R, sum.tail<3>());
         continue;
       }
-      if (bodies[row].is_static || bodies[col].is_static) continue;  // of infinite mass
-      const Vec3 per_inertia = bodies[row].inertia.cwiseInverse().cwiseSqrt();
-      const Mat3 torques =
-          per_inertia.asDiagonal() * R_WB[row].transpose() * K.bottomLeftCorner<3, 3>();
-      add_squares(K.topLeftCorner<3, 3>(), R, one, sum.head<3>());
-      add_squares(torques, R, bodies[col].mass * one, sum.head<3>());
-      add_squares(K.topRightCorner<3, 3>(), R, bodies[col].inertia / bodies[row].mass,
-                  sum.tail<3>());
-      add_squares(K.bottomRightCorner<3, 3>(), R, one, sum.tail<3>());
+      const Body& on = bodies[index(pairs_[at].row)];
+      const Body& by = bodies[col];
+      if (on.is_static || by.is_static) continue;  // of infinite mass
+      const Mat3 torques = (by.mass * on.inertia.cwiseInverse()).cwiseSqrt().asDiagonal() *
+                           R_WB[index(pairs_[at].row)].transpose() * K.bottomLeftCorner<3, 3>();
+      const Mat3 R_weighted = R * (by.inertia / on.mass).cwiseSqrt().asDiagonal();
+      add_squares(K.topLeftCorner<3, 3>(), R, sum.head<3>());
+      add_squares(torques, R, sum.head<3>());
+      add_squares(K.topRightCorner<3, 3>(), R_weighted, sum.tail<3>());
+      add_squares(K.bottomRightCorner<3, 3>(), R, sum.tail<3>());
     }
     for (int i = whole_.empty() ? 3 : 0; i < 6; ++i) sum[i] = std::sqrt(sum[i]);
     k[col] = sum;

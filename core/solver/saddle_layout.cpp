@@ -16,7 +16,7 @@ constexpr double kFold = 1e7;
 constexpr int kLeafRows = 8;  // with more rows folding is cheaper
 // A joint yields if the softness of a row exceeds this fraction of its mobility. In the articulated
 // form, rounding errors of momenta grow by softness times inertia.
-constexpr double kYields = 1e-3;
+constexpr double kSofter = 1e-3;
 
 /// Upper bound on J Mt^-1 J^T of a row on one body.
 double mobility(const double (&J)[6], const InverseMass& mass) {
@@ -94,8 +94,8 @@ bool SaddleLdlt::yields(const Block& joint, const System& system) {
   const auto turning = [&](int body) {
     return body < 0 ? 0.0 : system.inverse_mass[index(body)].angular.trace();
   };
-  return any_above(0, 3, kYields * point_mobility(joint, system)) ||
-         any_above(3, joint.rows, kYields * (turning(joint.a) + turning(joint.b)));
+  return any_above(0, 3, kSofter * point_mobility(joint, system)) ||
+         any_above(3, joint.rows, kSofter * (turning(joint.a) + turning(joint.b)));
 }
 
 bool SaddleLdlt::begin(const System& system) {

@@ -86,7 +86,7 @@ TEST(PrismaticJoint, GradientAndStiffnessMatchFiniteDifferences) {
 TEST(PrismaticJoint, ExchangedExertsTheSameForces) {
   Random random(8);
   for (int trial = 0; trial < 20; ++trial) {
-    Scene scene = joined<PrismaticJoint>(random, trial % 4 == 0);
+    Scene scene = joined<PrismaticJoint>(random, false);  // the first body of a joint moves
     const State state = initial_state(scene);
     const auto slide = [&]() -> PrismaticJoint& {
       return std::get<PrismaticJoint>(scene.joints[0]);
@@ -94,12 +94,11 @@ TEST(PrismaticJoint, ExchangedExertsTheSameForces) {
     {  // closed, but for the travel
       PrismaticJoint& joint = slide();
       const Quat q_a = state.q[0];
-      const bool to_world = joint.b == kWorld;
-      const Quat q_b = to_world ? Quat(Quat::Identity()) : Quat(state.q[1]);
-      const Vec3 x_b = to_world ? Vec3(Vec3::Zero()) : state.x[1];
+      const Quat q_b = state.q[1];
       joint.axis_a = q_a.conjugate() * (q_b * joint.axis_b);
       joint.across_a = q_a.conjugate() * (q_b * joint.across_b);
-      const Vec3 at = x_b + q_b * (joint.anchor_b + uniform(random, -1.0, 1.0) * joint.axis_b);
+      const Vec3 at =
+          state.x[1] + q_b * (joint.anchor_b + uniform(random, -1.0, 1.0) * joint.axis_b);
       joint.anchor_a = q_a.conjugate() * (at - state.x[0]);
     }
     Blocks blocks;

@@ -64,8 +64,7 @@ struct Block {
   Vec3 n = Vec3::Zero();   // from b to a, world
   Vec3 t1 = Vec3::Zero();  // tangents, world; set only with friction
   Vec3 t2 = Vec3::Zero();
-  // From the centre of b to the touching point of a, gap included; prismatic: to the anchor on b
-  // [m]
+  // From the centre of b to the touching point of a, gap included [m]. Prismatic: to b's anchor.
   Vec3 rho = Vec3::Zero();
   Vec3 arm_a = Vec3::Zero();  // from a's centre to the point that rotates with a (0 for a sphere)
   Mat3 H = Mat3::Zero();      // curvature of b's distance field at a's point [1/m]: dn = H dx

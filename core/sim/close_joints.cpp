@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kMostClosings = 30;        // solves
 constexpr double kNearRounding = 1e-12;  // of gaps, relative to the size of a joint
-constexpr double kOpen = 1e-10;          // likewise, of a joint that is not closed
-constexpr double kOpens = 10.0;          // by this factor, if the sub-step is too long for it
+constexpr double kOpen = 1e-10;          // gap of a joint that is open, likewise
+constexpr double kOpens = 10.0;          // growth of a gap in a sub-step that is too long
 
 /// The size of a joint, below whose rounding its gap cannot be told from zero [m].
 double size_of(const Block& block) { return block.r_a.norm() + block.r_b.norm(); }
@@ -43,7 +43,7 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
                                    SolveReport& solved) {
   const auto closes = [](const Block& block) { return !block.is_contact() && !is_grab(block); };
   double last = std::numeric_limits<double>::infinity();
-  double before = 0.0;  // largest gap, as below
+  double before = 0.0;  // largest gap at the start of the sub-step
   for (const Block& block : system.blocks) {
     if (closes(block)) before = std::max(before, largest_gap(block, block.phi));
   }

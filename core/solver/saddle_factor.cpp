@@ -166,7 +166,7 @@ void SaddleLdlt::factor_rows(const Node& node, std::span<const Block> blocks, au
   if (softened_ > 0.0) soften(node, blocks, softened_);
   if (!factor_ldlt(f.S, rows, f.S_inverse)) return;
   held_ = true;
-  if (node.has_contacts) return;
+  if (node.has_contacts || softened_ > 0.0) return;
   form();
   soften(node, blocks, kSoftened);
   factor_ldlt(f.S, rows, f.S_inverse);

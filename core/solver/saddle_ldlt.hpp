@@ -220,7 +220,9 @@ class SaddleLdlt {
   /// Adds corrections to the solution of the softened rows.
   /// @param consistent the rows can be met: corrections may be large
   void correct(const System& system, bool consistent);
+  /// Impulses of articulated and folded joints, from the last solve.
   void find_unique_impulses(std::span<Block> blocks);
+  /// All impulses after refine(), those of redundant rows with the least norm.
   void find_least_impulses(std::span<Block> blocks);
   /// Sets u* to the velocity under the current impulses, and sets up the system for their
   /// correction. @return its largest |w| at zero correction [m/s, rad/s]

@@ -32,11 +32,11 @@ bool leaves_axis(const Vec3& I, const Vec3& omega_B) {
 //   phi + (r_a^ - r_a) - (r_b^ - r_b) + dt (J u+ - J_omega omega^) = 0,
 // and likewise for a hinge. Centres move linearly and drop out. Impacts cannot be predicted: where
 // they happen within sub-steps, in scenes with contacts that are not found along the motion, joints
-// use plain Eq. 3. Joints that are closed exactly hold at the end poses either way.
+// use plain Eq. 3. Rigid joints that are closed exactly hold at the end poses either way.
 bool bends_rows(const Substep& sub) {
   const Settings& settings = sub.settings;
-  const bool with_contacts =
-      settings.detection == Detection::kContinuous && drift_law(settings) != Drift::kExact;
+  const bool with_contacts = settings.detection == Detection::kContinuous &&
+                             (drift_law(settings) != Drift::kExact || sub.has_springs);
   return settings.gyroscopic == Gyroscopic::kImplicit && sub.scene->effects.joints &&
          (!sub.scene->effects.contact || with_contacts) && settings.drift_order == 1 &&
          !entry_of(settings.solver).at_end;

@@ -10,8 +10,8 @@ StiffnessStage::StiffnessStage(const Scene& scene) {
   K_.reserve(scene.bodies.size(), joints + contacts);
 }
 
-// The rows of some joints change if a and b are exchanged, and K with them in directions that the
-// joint does not leave free. The mean of both does not depend on their order.
+// Some joints have other rows if a and b are exchanged. K then differs in the directions that the
+// joint does not leave free; the mean of both does not depend on the order of the bodies.
 void StiffnessStage::add(auto joint, const Block& block) {
   if constexpr (requires { joint.exchanged(block); }) {
     Block half = block;
@@ -34,7 +34,8 @@ void StiffnessStage::evaluate(const Scene& scene, std::span<const Block> blocks,
     }
   }
   k.resize(R_WB.size(), Vec6::Zero());
-  // Results with whole blocks of contacts are those of plain norms.
+  // Exact contact blocks keep the plain norm, in metres: with weights N becomes so small that
+  // ragdoll_drop fails.
   const bool weighted = terms == ContactTerms::kPaper;
   K_.column_norms(part.bodies, scene.bodies, R_WB, weighted, k);
 }

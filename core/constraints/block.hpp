@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/math/types.hpp"
+#include "core/model/carried.hpp"
 
 namespace substep {
 
-inline constexpr int kMaxRows = 5;
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Bias of a contact that nothing closes [m/s].

@@ -15,7 +15,7 @@ namespace substep {
 namespace {
 
 constexpr std::string_view kSides = "-0+?";  // of StoredForce::active_set from -1 on; ?: not known
-constexpr std::size_t kStoredRows = std::size(StoredForce{}.lambda);
+constexpr std::size_t kStoredRows = kMaxRows;
 
 /// One item per body, with the numbers of an Item; matrices by columns.
 template <class Item>

@@ -7,16 +7,19 @@
 
 namespace substep {
 
+/// Largest number of rows of a joint or a contact point: a rigid connection has six.
+inline constexpr int kMaxRows = 6;
+
 /// Stored force of a constraint: seeds friction bounds and warm starts.
 struct StoredForce {
-  std::uint64_t id = 0;   // of the constraint block
-  double lambda[5] = {};  // per row [N or N m]
+  std::uint64_t id = 0;          // of the constraint block
+  double lambda[kMaxRows] = {};  // per row [N or N m]
   // Per row, with Newton's forces numerov; 0 if not yet known.
-  double rate[5] = {};             // of lambda [N/s or N m/s]
-  double rate_change[5] = {};      // of the rate [N/s^2 or N m/s^2]
-  double rate_age = 0.0;           // age of the rate relative to lambda [s]
-  double elastic[5] = {};          // per row, under the soft drift law: Block::elastic [m, rad]
-  std::int8_t active_set[5] = {};  // per row of contacts: as Block::active_set
+  double rate[kMaxRows] = {};         // of lambda [N/s or N m/s]
+  double rate_change[kMaxRows] = {};  // of the rate [N/s^2 or N m/s^2]
+  double rate_age = 0.0;              // age of the rate relative to lambda [s]
+  double elastic[kMaxRows] = {};      // per row, under the soft drift law: Block::elastic [m, rad]
+  std::int8_t active_set[kMaxRows] = {};  // per row of contacts: as Block::active_set
 };
 
 /// The last sub-step of a body whose island has its own sub-steps.

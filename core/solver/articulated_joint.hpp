@@ -6,12 +6,19 @@
 
 namespace substep {
 
-/// Eliminates a body together with its single joint with point rows to its parent or the world, in
-/// closed form and without inverting the body's inertia; see the derivation in
+/// Eliminates a body together with its single joint, a ball joint or a hinge, to its parent or the
+/// world, in closed form and without inverting the body's inertia; see the derivation in
 /// articulated_joint.cpp. The body's quantities are about the pivot, the parent's about the
 /// parent's reference point: its own pivot if it is articulated, else its centre.
 class ArticulatedJoint {
  public:
+  /// The largest number of rows of such a joint.
+  static constexpr int kMostRows = 5;
+  /// Whether it has this form: the rows of a ball joint or of a hinge.
+  [[nodiscard]] static bool handles(const Block& block) {
+    return block.has_point_rows && (block.rows == 3 || block.rows == kMostRows);
+  }
+
   /// Reads the joint's data for a sub-step. @param child_is_a which side of the block is eliminated
   /// @param reference the parent's pivot from its centre [m], nullptr for the centre
   /// @param u_star array of all bodies; a pointer, because WebAssembly passes spans through memory
@@ -79,9 +86,9 @@ class ArticulatedJoint {
   double g_[6];  // momentum passed to the parent, at the pivot
   double v_[6];
   // Only with softness:
-  double e_[2][3];      // hinge: across the axis, dual to the two angular rows
-  double w_[kMaxRows];  // [m/s, rad/s]
-  double softness_[kMaxRows];
+  double e_[2][3];       // hinge: across the axis, dual to the two angular rows
+  double w_[kMostRows];  // [m/s, rad/s]
+  double softness_[kMostRows];
 };
 
 }  // namespace substep

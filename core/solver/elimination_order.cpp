@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/solver/articulated_joint.hpp"
+
 namespace substep {
 
 namespace {
@@ -107,7 +109,7 @@ std::size_t EliminationOrder::priority(int body) const {
   const std::vector<int>& neighbours = graph_[index(body)];
   std::size_t degree = neighbours.size();
   bool anchored = false;
-  if (joint_rows_[index(body)] > kMaxRows) {
+  if (joint_rows_[index(body)] > ArticulatedJoint::kMostRows) {
     // More rows than the closed form of one joint handles: the world is not counted, so that a
     // bridge is eliminated from its ends. A free end comes before an anchored one, which has twice
     // the rows.

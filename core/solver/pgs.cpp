@@ -61,16 +61,24 @@ constexpr std::size_t kLongest = sizeof(Visit<kMaxRows, false>);
 /// Calls f with a null pointer to the record type for this number of rows.
 template <class F>
 void with_type(int rows, bool has_point_rows, F&& f) {
-  static_assert(kMaxRows == 5);
+  const auto either = [&]<int Rows>(std::integral_constant<int, Rows> /*rows*/) {
+    return has_point_rows ? f(static_cast<Visit<Rows, true>*>(nullptr))
+                          : f(static_cast<Visit<Rows, false>*>(nullptr));
+  };
+  static_assert(kMaxRows == 6);
   switch (rows) {
     case 1:
       return f(static_cast<Visit<1, false>*>(nullptr));
+    case 2:
+      return f(static_cast<Visit<2, false>*>(nullptr));
     case 3:
-      return has_point_rows ? f(static_cast<Visit<3, true>*>(nullptr))
-                            : f(static_cast<Visit<3, false>*>(nullptr));
-    default:  // 5
-      return has_point_rows ? f(static_cast<Visit<5, true>*>(nullptr))
-                            : f(static_cast<Visit<5, false>*>(nullptr));
+      return either(std::integral_constant<int, 3>{});
+    case 4:
+      return either(std::integral_constant<int, 4>{});
+    case 5:
+      return either(std::integral_constant<int, 5>{});
+    default:  // 6
+      return either(std::integral_constant<int, 6>{});
   }
 }
 

@@ -324,7 +324,7 @@ void SaddleLdlt::choose_kind(Node& node, const System& system) {
     return nodes_[index(child)].coupled == 1;
   });
   node.in_tree = carries_trees && node.n_attached == 1 &&
-                 blocks[index(attached[0].block)].has_point_rows &&
+                 ArticulatedJoint::handles(blocks[index(attached[0].block)]) &&
                  node.coupled == (attached[0].other < 0 ? 0 : 1);
   if (node.in_tree) attached[0].yields = yields(blocks[index(attached[0].block)], system);
   if (node.in_tree && !attached[0].yields) {

@@ -191,7 +191,7 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
         continue;
       }
       const int positions = block.position_rows;
-      visit(i, {0, positions});
+      if (positions > 0) visit(i, {0, positions});
       if (block.rows > positions) visit(i, {positions, block.rows - positions});
     }
   }

@@ -44,7 +44,7 @@ void curvature_of(const Block& block, std::span<const Vec6> u, double* curvature
 }  // namespace
 
 void add_curvature_bias(std::span<Block> blocks, std::span<const Vec6> u, double dt) {
-  double curvature[kMaxRows];
+  double curvature[kMaxRows] = {};
   for (Block& block : blocks) {
     if (block.is_contact()) continue;
     curvature_of(block, u, curvature);
@@ -55,7 +55,7 @@ void add_curvature_bias(std::span<Block> blocks, std::span<const Vec6> u, double
 void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
                            std::span<const InverseMass> inverse_mass, double dt,
                            double regularisation) {
-  double curvature[kMaxRows];
+  double curvature[kMaxRows] = {};
   for (Block& block : joints) {
     curvature_of(block, u, curvature);
     const auto is_spring = [&](int first, int end) {

@@ -1,6 +1,7 @@
 // Solvers that are implicit at the end of a sub-step, against the equations that they solve.
 
 #include "core/constraints/moved_rows.hpp"
+#include "core/math/across.hpp"
 #include "core/model/names.hpp"
 #include "core/solver/solver.hpp"
 #include "core/stepping/integrate.hpp"
@@ -10,7 +11,12 @@
 namespace substep::test {
 namespace {
 
-/// A chain of boxes on ball joints and hinges under tension.
+enum class Links : std::uint8_t {
+  kHingesAndBalls,
+  kAnyRows,  // hinges and slides without their last rows: universal joints, points on a line, ...
+};
+
+/// A chain of boxes on joints under tension.
 struct Chain {
   Scene scene;
   State state;
@@ -20,7 +26,7 @@ struct Chain {
   std::vector<Mat3> R_WB;
   double dt = 1.0 / 60.0;
 
-  Chain(Random& random, int links, double mass_of_last) {
+  Chain(Random& random, int links, double mass_of_last, Links kind = Links::kHingesAndBalls) {
     scene.effects.joints = true;
     for (int i = 0; i < links; ++i) {
       Body body = moving(Box{Vec3{0.2, 0.1, 0.15}}, i + 1 == links ? mass_of_last : 1.0);
@@ -41,6 +47,8 @@ struct Chain {
       scene.bodies.push_back(body);
       if (i % 2 == 0) {
         scene.joints.emplace_back(hinge);
+      } else if (kind == Links::kAnyRows) {
+        scene.joints.emplace_back(slide_of(hinge));
       } else {
         scene.joints.emplace_back(ball_of(hinge));
       }
@@ -52,6 +60,11 @@ struct Chain {
     R_WB = rotations(state);
     JointStage(scene).append(whole(scene), state, R_WB, blocks);
     for (Block& block : blocks.all()) {
+      if (kind == Links::kAnyRows) {
+        block.rows -= static_cast<int>(random() % (block.has_point_rows ? 3U : 5U));
+        block.position_rows =
+            static_cast<std::int8_t>(std::min(block.rows, int{block.position_rows}));
+      }
       std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
       std::fill(block.active_set, block.active_set + kMaxRows, std::int8_t{0});
       for (int row = 0; row < block.rows; ++row) {
@@ -64,6 +77,21 @@ struct Chain {
   [[nodiscard]] Vec3 end_of(int i) const {
     const Body& body = scene.bodies[static_cast<std::size_t>(i)];
     return body.position + body.orientation * Vec3(0.2, 0.0, 0.0);
+  }
+  /// A slide along the axis of a hinge.
+  [[nodiscard]] PrismaticJoint slide_of(const HingeJoint& hinge) const {
+    const auto turned = [&](int body) -> Mat3 {
+      if (body == kWorld) return Mat3::Identity();
+      return scene.bodies[index(body)].orientation.toRotationMatrix();
+    };
+    PrismaticJoint slide;
+    static_cast<JointBase&>(slide) = hinge;
+    slide.axis_a = hinge.axis_a;
+    slide.axis_b = hinge.axis_b;
+    Vec3 third;
+    across(slide.axis_a, slide.across_a, third);
+    slide.across_b = turned(slide.b).transpose() * turned(slide.a) * slide.across_a;
+    return slide;
   }
   System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt, R_WB}; }
 };
@@ -135,6 +163,21 @@ TEST(Newton, SolvesTheImplicitSubstep) {
   }
 }
 
+TEST(Newton, SolvesJointsOfAnyNumberOfRows) {
+  Random random(46);
+  for (int trial = 0; trial < 30; ++trial) {
+    Chain chain(random, 1 + trial % 8, 1.0, Links::kAnyRows);
+    const std::vector<Vec6> u_star = chain.state.u;
+    Settings settings;
+    settings.iterations = 100;
+    settings.forces = Forces::kEnd;
+    const SolveReport report = make_solver(SolverKind::kNewton)->solve(chain.system(), settings);
+    EXPECT_EQ(report.status, SolveStatus::kSolved) << "trial " << trial;
+    EXPECT_LT(error_at_end(chain), 1e-7) << "trial " << trial;
+    EXPECT_LT(error_of_impulses(chain, u_star, settings.forces), 1e-7) << "trial " << trial;
+  }
+}
+
 // The part of the Hessian that does not resist, and the coupling of the two bodies of a hinge, are
 // omitted: the error falls by a factor of ten per step, not quadratically.
 TEST(Newton, ConvergesInAFewSteps) {
@@ -201,6 +244,17 @@ TEST(Xpbd, ConvergesToTheEndOfTheSubstepAndNearlyToNewton) {
     }
   }
   EXPECT_LT(half, 0.6 * whole);
+}
+
+TEST(Xpbd, SolvesJointsOfAnyNumberOfRows) {
+  Random random(47);
+  for (int trial = 0; trial < 10; ++trial) {
+    Chain chain(random, 1 + trial % 4, 1.0, Links::kAnyRows);
+    Settings settings;
+    settings.iterations = 3000;
+    make_solver(SolverKind::kXpbd)->solve(chain.system(), settings);
+    EXPECT_LT(error_at_end(chain), 1e-8) << "trial " << trial;
+  }
 }
 
 TEST(Xpbd, ImpulsesMatchTheVelocitiesOfTheCentres) {

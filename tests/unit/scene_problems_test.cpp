@@ -294,13 +294,13 @@ INSTANTIATE_TEST_SUITE_P(
             "CarriedForce",
             R"("bodies": [)",
             R"("carried": {"dt_previous": 2, "forces": [{"id": "xyz", "lambda": [1, 1e31],
-                   "rate": 1, "rate_change": [1, 2, 3, 4, 5, 6], "tight": "0~"}]}, "bodies": [)",
+                   "rate": 1, "rate_change": [1, 2, 3, 4, 5, 6, 7], "tight": "0~"}]}, "bodies": [)",
             {"/carried/dt_previous: must be at most 1 (s), not 2",
              R"(/carried/forces/0/id: must be a hexadecimal number of at most 16 digits, not "xyz")",
              "/carried/forces/0/lambda/1: must be at most 1e30 (N, N m), not 1e31",
-             "/carried/forces/0/rate: must be a list of at most 5 numbers, not 1",
-             "/carried/forces/0/rate_change: must be a list of at most 5 numbers, not "
-             "[1,2,3,4,5,6]",
+             "/carried/forces/0/rate: must be a list of at most 6 numbers, not 1",
+             "/carried/forces/0/rate_change: must be a list of at most 6 numbers, not "
+             "[1,2,3,4,5,6,7]",
              R"(/carried/forces/0/tight: must be made of -, 0, + and ?, not "0~")"}},
         BadFile{
             "BodiesNoList",

@@ -27,7 +27,8 @@ struct ProblemSize {
   int joints = 2;
   int contacts = 2;
   double mu = 0.0;
-  double softness = 0.01;  // rows have up to twenty times as much [1/kg]
+  double softness = 0.01;     // rows have up to twenty times as much [1/kg]
+  int joint_rows = kMaxRows;  // at most
 };
 
 /// A joint of rigid bodies, at random arms and axes. Data that follows from the arms is poisoned.
@@ -43,8 +44,9 @@ void pin(Random& random, Block& block) {
   const Vec3 axis_b = random_vector(random).normalized();
   across(axis_b, v[0], v[1]);
   const Vec3 axis_a = (axis_b + 0.3 * random_vector(random)).normalized();
+  const Vec3 turned[] = {axis_a.cross(v[0]), axis_a.cross(v[1]), axis_a};
   for (int row = 3; row < block.rows; ++row) {
-    const Vec3 J = axis_a.cross(v[row - 3]);
+    const Vec3& J = turned[row - 3];
     for (int j = 0; j < 3; ++j) {
       block.J_a[row][j] = 0.0;
       block.J_a[row][3 + j] = J[j];
@@ -69,12 +71,17 @@ Problem random_problem(Random& random, const ProblemSize& size) {
   for (int i = 0; i < size.joints + size.contacts; ++i) {
     Block block;
     const bool contact = i >= size.joints;
-    block.kind =
-        contact ? BlockKind::kContact : (i % 2 == 0 ? kind_of(BallJoint{}) : kind_of(HingeJoint{}));
-    block.rows = contact ? (size.mu > 0.0 ? 3 : 1) : (i % 2 == 0 ? 3 : 5);
-    block.mu = contact ? size.mu : 0.0;
-    block.has_point_rows = !contact && i % 4 < 2;  // solvers may use it: half of the joints
-    if (!contact) block.position_rows = block.has_point_rows ? 3 : 2;
+    if (contact) {
+      block.kind = BlockKind::kContact;
+      block.rows = size.mu > 0.0 ? 3 : 1;
+      block.mu = size.mu;
+    } else {  // any number of rows; solvers may use that half of them connect points
+      block.has_point_rows = i % 4 < 2;
+      const int fewest = block.has_point_rows ? 3 : 1;
+      block.rows =
+          fewest + static_cast<int>(random() % static_cast<unsigned>(size.joint_rows + 1 - fewest));
+      block.position_rows = static_cast<std::int8_t>(std::min(block.rows, 3));
+    }
     block.a = static_cast<int>(random() % static_cast<unsigned>(size.bodies));
     block.b = static_cast<int>(random() % static_cast<unsigned>(size.bodies + 1)) - 1;
     if (block.a == block.b) block.b = -1;
@@ -259,9 +266,10 @@ TEST_P(EverySolver, JointsAloneAreALinearSystem) {
   }
 }
 
-/// A tree of joints, so that no row is redundant, and loops with one more row each.
+/// A tree of joints that leave a direction free, so that no row is redundant, and loops with one
+/// more row each.
 Problem random_tree(Random& random, int bodies, int loops, double softness) {
-  Problem problem = random_problem(random, {bodies, bodies, loops, 0.0, softness});
+  Problem problem = random_problem(random, {bodies, bodies, loops, 0.0, softness, kMaxRows - 1});
   for (int i = 0; i < bodies; ++i) {
     Block& block = problem.blocks[static_cast<std::size_t>(i)];
     block.a = i;

@@ -20,6 +20,7 @@
 #include "core/model/format_text.hpp"
 #include "core/model/scene_builder.hpp"
 #include "core/sim/start.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {
@@ -113,7 +114,7 @@ class Mechanism {
     };
     double fastest = 0.0;
     for (const Joint& joint : scene.joints) {
-      fastest = std::max(fastest, (spin(base(joint).a) - spin(base(joint).b)).norm());
+      keep_largest(fastest, (spin(base(joint).a) - spin(base(joint).b)).norm());
     }
     const double factor = std::min(1.0, 30.0 / fastest);
     for (Body& body : scene.bodies) {
@@ -360,7 +361,7 @@ std::string fault(const Scene& scene, double seconds, std::optional<double> most
   double weight = 0.0;
   for (const Body& body : scene.bodies) {
     if (body.is_static) continue;
-    size = std::max(size, radius_around(body.shape));
+    keep_largest(size, radius_around(body.shape));
     weight += body.mass * kGravity;
   }
   double start = 0.0;
@@ -376,17 +377,17 @@ std::string fault(const Scene& scene, double seconds, std::optional<double> most
   int most_n = 0;
   StepStatus status = StepStatus::kOk;
   const EveryFrame every = [&](const Simulator& simulator, const FrameReport& report) {
-    for (const Vec3& x : simulator.state().x) reach = std::max(reach, x.norm());
+    for (const Vec3& x : simulator.state().x) keep_largest(reach, x.norm());
     status = report.status;
     if (report.frame == 1) start = lowest = report.energy;
     lowest = std::min(lowest, report.energy);
-    rise = std::max(rise, report.energy - lowest);
-    change = std::max(change, std::abs(report.energy - start));
-    kinetic = std::max(kinetic, report.kinetic);
-    most_potential = std::max(most_potential, report.potential);
+    keep_largest(rise, report.energy - lowest);
+    keep_largest(change, std::abs(report.energy - start));
+    keep_largest(kinetic, report.kinetic);
+    keep_largest(most_potential, report.potential);
     least_potential = std::min(least_potential, report.potential);
-    gap = std::max(gap, report.joint_gap);
-    inside = std::max(inside, report.inside);
+    keep_largest(gap, report.joint_gap);
+    keep_largest(inside, report.inside);
     most_n = std::max(most_n, report.n_substeps);
   };
   const Outcome outcome = run(scene, substep::Settings{}, seconds, every, false);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
@@ -48,9 +49,9 @@ LongRun run_long(const Scene& scene, const Settings& settings, std::int64_t warm
       memory = peak_memory();
       out.energy_after_warm_up = out.energy_highest = out.energy_lowest = report.energy;
     }
-    out.energy_highest = std::max(out.energy_highest, report.energy);
+    keep_largest(out.energy_highest, report.energy);
     out.energy_lowest = std::min(out.energy_lowest, report.energy);
-    out.joint_gap = std::max(out.joint_gap, report.joint_gap);
+    keep_largest(out.joint_gap, report.joint_gap);
   }
   out.memory_growth = peak_memory() - memory;
   std::printf("%s, %lld frames: energy %+.6g to %+.6g J of %.6g J, gap %.3g m, %ld KiB more\n",

@@ -8,6 +8,7 @@
 
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
@@ -173,7 +174,7 @@ Loss loss(const scenes::BridgeOptions& start, const Settings& settings, double m
   while (simulator.state().x[ball].x() < kEnd && report.time < 4.0) {
     report = simulator.step();
     least = std::min(least, report.kinetic);
-    most = std::max(most, report.kinetic);
+    keep_largest(most, report.kinetic);
   }
   return {first - report.energy - stored(simulator), most - least};
 }
@@ -198,8 +199,8 @@ TEST(BridgeEnergy, SingleStartsDependOnMicrometres) {
   double micrometre = 0.0;
   for (const auto& start : starts) {
     const Loss own = loss(start, fine);
-    finest = std::max(finest, share(loss(start, finer), own));
-    micrometre = std::max(micrometre, share(loss(start, fine, 1e-6), own));
+    keep_largest(finest, share(loss(start, finer), own));
+    keep_largest(micrometre, share(loss(start, fine, 1e-6), own));
     EXPECT_LT(share(loss(start, fine, 1e-9), own), 0.1);
   }
   EXPECT_GT(finest, 1.0);
@@ -241,7 +242,7 @@ TEST(BridgeEnergy, FewSubstepsLoseMoreEnergyWhereTheBallLands) {
       const double share = 100.0 * (own.energy - fine[i].energy) / fine[i].exchanged;
       mean += share / static_cast<double>(fine.size());
       least = std::min(least, share);
-      most = std::max(most, share);
+      keep_largest(most, share);
     }
     EXPECT_NEAR(mean, more, within) << name_of(settings.mode);
     EXPECT_GT(most - least, 2.0) << "the starts differ too much to be compared singly";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
@@ -48,7 +49,7 @@ inline const std::vector<Vec3>& reference() {
 inline double tip_error(const Outcome& run) {
   double worst = 0.0;
   for (std::size_t i = 0; i < std::min(run.track.size(), reference().size()); ++i) {
-    worst = std::max(worst, (run.track[i] - reference()[i]).norm());
+    keep_largest(worst, (run.track[i] - reference()[i]).norm());
   }
   return worst;
 }

@@ -10,6 +10,7 @@
 #include "core/lab/planar_chain.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/paper/exact_swing.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
@@ -84,7 +85,7 @@ double off_after_return(const Settings& settings) {
   for (int i = 0; i < kThere; ++i) simulator.step();
   double off = 0.0;
   for (std::size_t i = 0; i < start.x.size(); ++i) {
-    off = std::max(off, (simulator.state().x[i] - start.x[i]).norm());
+    keep_largest(off, (simulator.state().x[i] - start.x[i]).norm());
   }
   return off;
 }
@@ -125,8 +126,8 @@ double growth_of_rod(Forces forces, double kappa, int steps = 100, int first_ste
   for (int i = 0; i < kSteps; ++i) {
     if (simulator.step().status != StepStatus::kOk) return 1e9;
     const double aside = std::abs(simulator.state().x[0].x());
-    if (i < first_steps) first = std::max(first, aside);
-    if (i >= kSteps - kSteps / 10) last = std::max(last, aside);
+    if (i < first_steps) keep_largest(first, aside);
+    if (i >= kSteps - kSteps / 10) keep_largest(last, aside);
   }
   return last / first;
 }
@@ -155,7 +156,7 @@ double chain_error(Forces forces, int n, int steps = 25) {
     exact->advance(scene.frame);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const Vec3 off = exact->centre(static_cast<int>(i)) - simulator.state().x[i];
-      worst = std::max(worst, off.norm());
+      keep_largest(worst, off.norm());
     }
   });
   return worst;

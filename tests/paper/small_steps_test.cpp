@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
@@ -107,7 +108,7 @@ double deepest_overlap(const Scene& scene, const Settings& settings, double seco
   run(
       scene, settings, seconds,
       [&](const Simulator&, const FrameReport& report) {
-        deepest = std::max(deepest, report.penetration);
+        keep_largest(deepest, report.penetration);
       },
       false);
   return deepest;
@@ -150,7 +151,7 @@ TEST(SmallSteps, DetectBoxesAgainAsTheyRotate) {
   run(ball, settings, 2.0, [&](const Simulator& simulator, const FrameReport&) {
     for (std::size_t i = 0; i < ball.bodies.size(); ++i) {
       if (!ball.bodies[i].name.starts_with("link")) continue;
-      fastest = std::max(fastest, simulator.state().u[i].tail<3>().norm());
+      keep_largest(fastest, simulator.state().u[i].tail<3>().norm());
     }
   });
   EXPECT_LT(fastest, 20.0);

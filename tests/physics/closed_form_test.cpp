@@ -8,6 +8,7 @@
 #include "core/constraints/contact_stage.hpp"
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
@@ -148,7 +149,7 @@ Cradle swing(const Settings& settings, double seconds) {
       if (!(now[i] > before[i] && now[i] >= next[i] && now[i] > 0.02)) continue;
       (i == 0 ? cradle.first : cradle.last).push_back(now[i]);
       for (const std::size_t body : {2U, 3U, 4U}) {
-        cradle.middle = std::max(cradle.middle, s.state().u[body].head<3>().norm());
+        keep_largest(cradle.middle, s.state().u[body].head<3>().norm());
       }
     }
     before = now;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/model/names.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep {
@@ -118,9 +119,9 @@ TEST(Compliance, TheEnergyIncludesThatOfSprings) {
     const test::EveryFrame every = [&](const Simulator&, const FrameReport& report) {
       EXPECT_EQ(report.energy, report.kinetic + report.potential + report.springs);
       EXPECT_EQ(report.elastic, report.springs);
-      most = std::max(most, std::abs(report.energy));
-      alone = std::max(alone, std::abs(report.kinetic + report.potential));
-      exchanged = std::max(exchanged, report.kinetic);
+      keep_largest(most, std::abs(report.energy));
+      keep_largest(alone, std::abs(report.kinetic + report.potential));
+      keep_largest(exchanged, report.kinetic);
     };
     const Settings settings =
         settings_of(SolverKind::kBpp, 16, Integrator::kLeapfrog, Drift::kFull);
@@ -148,7 +149,7 @@ TEST(Compliance, TheEnergyIncludesThatOfSoftContacts) {
   scene.bodies = {floor, ball};
   double springs = 0.0;
   const test::EveryFrame every = [&](const Simulator&, const FrameReport& report) {
-    springs = std::max(springs, report.springs);
+    keep_largest(springs, report.springs);
   };
   const Settings settings = settings_of(SolverKind::kBpp, 64, Integrator::kLeapfrog, Drift::kFull);
   EXPECT_EQ(test::run(scene, settings, 3.0, every).verdict, "holds");
@@ -167,7 +168,7 @@ TEST(Compliance, IsStableForEverySpring) {
         test::run(scene, settings_of(SolverKind::kBpp, n, integrator, Drift::kFull), 5.0,
                   [&](const Simulator& simulator, const FrameReport&) {
                     lowest = std::min(lowest, simulator.state().x[0].y());
-                    highest = std::max(highest, simulator.state().x[0].y());
+                    keep_largest(highest, simulator.state().x[0].y());
                   });
         const double sag = C * kMass * kGravity;
         const double dt = scene.frame / n;
@@ -218,7 +219,7 @@ EnergyRange energy_in_flight(const Settings& settings) {
               const double v = state.u_synchronised[1][1];
               const double energy = (0.5 * v * v + kGravity * gap) / kGravity;
               range.least = std::min(range.least, energy);
-              range.most = std::max(range.most, energy);
+              keep_largest(range.most, energy);
             });
   return range;
 }

@@ -9,6 +9,7 @@
 
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep {
@@ -176,7 +177,7 @@ TEST(Friction, OfTheConeHoldsAHouseOfCardsStill) {
     ASSERT_EQ(settings.friction_cone, FrictionCone::kCone);
     double kinetic = 0.0;
     const test::EveryFrame every = [&](const Simulator&, const FrameReport& report) {
-      if (report.time > 1.0) kinetic = std::max(kinetic, report.kinetic);
+      if (report.time > 1.0) keep_largest(kinetic, report.kinetic);
     };
     EXPECT_TRUE(test::run(scenes::card_house(), settings, 2.0, every, false).holds) << n;
     EXPECT_LT(kinetic, 1e-3) << n;  // J; a falling card has 0.1

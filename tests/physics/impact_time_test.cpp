@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/model/scene_builder.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/steady_settings.hpp"
@@ -60,9 +61,9 @@ TEST(ImpactTime, RodsOnJointsKeepTheirEnergyInElasticImpacts) {
           std::int64_t impacts = 0;
           const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
             if (report.frame == 1) start = report.energy;
-            kinetic = std::max(kinetic, report.kinetic);
+            keep_largest(kinetic, report.kinetic);
             least = std::min(least, report.energy);
-            most = std::max(most, report.energy);
+            keep_largest(most, report.energy);
             impacts += report.work.impacts;
           };
           run(scene, settings, 3.0, every, false);

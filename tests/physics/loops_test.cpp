@@ -13,6 +13,7 @@
 #include "core/solver/bpp.hpp"
 #include "scenes/generator/exam.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/placed.hpp"
 #include "tests/support/run.hpp"
 
@@ -123,7 +124,7 @@ Found run_case(const ExamCase& exam, int n) {
   for (long i = 0; i < frames; ++i) {
     const FrameReport report = simulator.step();
     measure({exam.scene, simulator.state(), report, {}}, found.errors);
-    found.gap = std::max(found.gap, report.joint_gap);
+    keep_largest(found.gap, report.joint_gap);
   }
   return found;
 }
@@ -143,9 +144,9 @@ TEST(Loops, AFourBarWithAHeavyCouplerIsExactToRounding) {
     double gap = 0.0;
     for (const double angle : exact) {
       const FrameReport report = simulator.step();
-      gap = std::max(gap, report.joint_gap);
+      keep_largest(gap, report.joint_gap);
       const Vec3 coupler{0.5 + std::sin(angle), -std::cos(angle), 0.0};
-      error = std::max(error, (simulator.state().x[2] - coupler).norm());
+      keep_largest(error, (simulator.state().x[2] - coupler).norm());
     }
     EXPECT_LT(error, n == 16 ? 1e-10 : 1e-12) << n;
     EXPECT_LT(gap, 1e-13) << n;
@@ -184,7 +185,7 @@ TEST(Loops, JointsStayClosed) {
     exam.scene.frame = 1.0 / 60.0;
     Simulator simulator = test::simulator_of(exam.scene, stormer(exam.scene, 16));
     double gap = 0.0;
-    for (int i = 0; i < 600; ++i) gap = std::max(gap, simulator.step().joint_gap);
+    for (int i = 0; i < 600; ++i) keep_largest(gap, simulator.step().joint_gap);
     EXPECT_LT(gap, 1e-11) << exam.name;
   }
 }
@@ -205,9 +206,9 @@ Largest largest_forces(const Scene& scene, const Vec3& normal) {
     most.substeps += simulator.step().n_substeps;
     if (i == 0) continue;  // it may begin without a known stiffness
     for (const JointForce& joint : simulator.constraint_forces().joints) {
-      most.force = std::max(most.force, joint.force.norm());
-      most.torque = std::max(most.torque, joint.torque.norm());
-      most.force_across = std::max(most.force_across, std::abs(joint.force.dot(normal)));
+      keep_largest(most.force, joint.force.norm());
+      keep_largest(most.torque, joint.torque.norm());
+      keep_largest(most.force_across, std::abs(joint.force.dot(normal)));
       most.torque_in_plane =
           std::max(most.torque_in_plane, (joint.torque - joint.torque.dot(normal) * normal).norm());
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/support/ball_chain.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep {
@@ -100,9 +101,9 @@ Scene scene_of(const Case& of) {
 double error_at(const State& state, const BallChain& end) {
   double error = 0.0;
   for (std::size_t i = 0; i < end.links().size(); ++i) {
-    error = std::max(error, (state.x[i] - end.centre(i)).norm());
+    keep_largest(error, (state.x[i] - end.centre(i)).norm());
     const Quat apart = state.q[i].conjugate() * end.links()[i].q;
-    error = std::max(error, 0.2 * apart.vec().norm());
+    keep_largest(error, 0.2 * apart.vec().norm());
   }
   return error;
 }
@@ -260,9 +261,9 @@ TEST(LongRunInSpace, AThinBoxKeepsItsMomentumAndItsEnergy) {
       const FrameReport report = simulator.step();
       if (report.n_substeps != n) ++changes;
       n = report.n_substeps;
-      most_kinetic = std::max(most_kinetic, report.kinetic);
-      drift = std::max(drift, std::abs(momentum(simulator) / momentum_start - 1.0));
-      energy_drift = std::max(energy_drift, std::abs(report.energy - energy_start));
+      keep_largest(most_kinetic, report.kinetic);
+      keep_largest(drift, std::abs(momentum(simulator) / momentum_start - 1.0));
+      keep_largest(energy_drift, std::abs(report.energy - energy_start));
     }
     // It swings through at 10 rad/s. N changes from one to two at the first time and stays: if N
     // follows each swing, Euler loses 70 %, leapfrog 1.3 %. The one change costs Euler 1 %.
@@ -336,8 +337,8 @@ TEST(RotationCriterion, TopsOfEveryShapeGainNoEnergy) {
         test::run(BallChain({top}, kGravityVector).scene(), settings, 10.0,
                   [&](const Simulator&, const FrameReport& report) {
                     if (kinetic == 0.0) start = report.energy;
-                    kinetic = std::max(kinetic, report.kinetic);
-                    most = std::max(most, report.energy - start);
+                    keep_largest(kinetic, report.kinetic);
+                    keep_largest(most, report.energy - start);
                   });
         EXPECT_LT(most, 0.02 * kinetic)
             << "I_3/I_1 " << axial << ", arm " << arm << ", "

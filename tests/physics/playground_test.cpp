@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {
@@ -47,7 +48,7 @@ TEST(Wall, StandsUntilTheBallHitsIt) {
   double moved = 0.0;
   const Outcome r = run(scene, scene.settings, 3.0, [&](const Simulator& s, const FrameReport&) {
     moved = (s.state().x[top] - scene.bodies[top].position).norm();
-    if (s.state().time < 0.4) moved_before = std::max(moved_before, moved);
+    if (s.state().time < 0.4) keep_largest(moved_before, moved);
   });
   EXPECT_TRUE(r.holds) << r.verdict;
   EXPECT_LT(moved_before, 0.005);
@@ -73,7 +74,7 @@ TEST(Ragdolls, LandInOnePieceAndComeToRest) {
   double at_last = 0.0;
   const Outcome r =
       run(scene, scene.settings, 8.0, [&](const Simulator&, const FrameReport& report) {
-        fastest = std::max(fastest, report.kinetic);
+        keep_largest(fastest, report.kinetic);
         at_last = report.kinetic;
       });
   EXPECT_TRUE(r.holds) << r.verdict;

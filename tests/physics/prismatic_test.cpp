@@ -15,6 +15,7 @@
 #include "core/model/scene_builder.hpp"
 #include "core/sim/conserved.hpp"
 #include "core/sim/start.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep {
@@ -66,7 +67,7 @@ double error_after(const Scene& scene, const Settings& settings, double seconds,
   for (long i = 0; i < frames; ++i) {
     const FrameReport report = simulator.step();
     EXPECT_EQ(report.status, StepStatus::kOk);
-    most = std::max(most, error(simulator.state(), simulator.state().time));
+    keep_largest(most, error(simulator.state(), simulator.state().time));
   }
   return most;
 }
@@ -205,8 +206,8 @@ TEST(PrismaticLoop, ASliderFollowsItsCrank) {
       const Vec3 crank_end = 2.0 * state.x[0];
       const double sine = crank_end.y() / kCrank;
       const double x = crank_end.x() + std::sqrt(kRod * kRod - kCrank * kCrank * sine * sine);
-      off = std::max(off, std::abs(state.x[2].x() - x) + std::abs(state.x[2].y()));
-      drift = std::max(drift, std::abs(report.energy - energy));
+      keep_largest(off, std::abs(state.x[2].x() - x) + std::abs(state.x[2].y()));
+      keep_largest(drift, std::abs(report.energy - energy));
       lowest = std::min(lowest, state.x[2].x());
     }
     const bool fourth = integrator == Integrator::kStormer;

@@ -15,6 +15,7 @@
 #include "scenes/generator/exam.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/continues.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/steady_settings.hpp"
@@ -172,10 +173,10 @@ Energies energies_of_run(const Scene& scene, const Settings& settings, double se
   const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
     if (report.frame == 1) start = lowest = report.energy;
     lowest = std::min(lowest, report.energy);
-    out.scale = std::max(out.scale, report.kinetic);
-    out.rise = std::max(out.rise, report.energy - lowest);
-    out.change = std::max(out.change, std::abs(report.energy - start));
-    out.gap = std::max(out.gap, report.joint_gap);
+    keep_largest(out.scale, report.kinetic);
+    keep_largest(out.rise, report.energy - lowest);
+    keep_largest(out.change, std::abs(report.energy - start));
+    keep_largest(out.gap, report.joint_gap);
     out.most = std::max(out.most, report.n_substeps);
     if (report.attempts > 1) ++out.again;
     EXPECT_EQ(report.status, StepStatus::kOk) << scene.name;
@@ -345,8 +346,8 @@ TEST(Steady, ExactJointsAndContactsHoldTogether) {
     int touching = 0;
     const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
       EXPECT_EQ(report.status, StepStatus::kOk);
-      most.first = std::max(most.first, report.joint_gap);
-      most.second = std::max(most.second, report.penetration);
+      keep_largest(most.first, report.joint_gap);
+      keep_largest(most.second, report.penetration);
       if (report.contact_rows > 0) ++touching;
     };
     EXPECT_EQ(run(scene, settings, 3.0, every, false).n.size(), 180U);

@@ -14,6 +14,7 @@
 #include "core/model/scene_builder.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/continues.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/steady_settings.hpp"
@@ -65,8 +66,7 @@ Flight flight_of(const Drop& drop, const Settings& settings, double seconds) {
     hit = hit || speed > last + 1e-9 || (gap < 1e-9 && report.time > falls);
     last = speed;
     flight.lowest = std::min(flight.lowest, gap);
-    if (hit)
-      flight.rebound = std::max(flight.rebound, gap + 0.5 * speed * std::abs(speed) / kGravity);
+    if (hit) keep_largest(flight.rebound, gap + 0.5 * speed * std::abs(speed) / kGravity);
     EXPECT_EQ(report.status, StepStatus::kOk);
   };
   run(*scene_of(drop), settings, falls + seconds, every, false);
@@ -300,7 +300,7 @@ TEST(SweptContacts, ALightBodyUnderAHeavyOneStaysWhole) {
     for (int i = 0; i < 150; ++i) {
       const FrameReport report = simulator.step();
       EXPECT_LT(report.penetration, 1e-3 * 2.0 * kHalf) << i;
-      if (report.time > 1.5) highest = std::max(highest, simulator.state().x[2].y());
+      if (report.time > 1.5) keep_largest(highest, simulator.state().x[2].y());
     }
     EXPECT_LT(highest, 3.0 * kHalf + 1e-3);
   }
@@ -347,8 +347,8 @@ TEST(SweptContacts, PassiveScenesGainNoEnergy) {
     const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
       EXPECT_EQ(report.status, StepStatus::kOk);
       lowest = std::min(lowest, report.energy);
-      rise = std::max(rise, report.energy - lowest);
-      kinetic = std::max(kinetic, report.kinetic);
+      keep_largest(rise, report.energy - lowest);
+      keep_largest(kinetic, report.kinetic);
     };
     run(scene, steady(), 3.0, every, false);
     // Parting the overlap that is allowed lifts what lies on it.
@@ -364,8 +364,8 @@ double rise_of(const Scene& scene, const Settings& settings, double seconds) {
   const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
     EXPECT_EQ(report.status, StepStatus::kOk);
     lowest = std::min(lowest, report.energy);
-    rise = std::max(rise, report.energy - lowest);
-    kinetic = std::max(kinetic, report.kinetic);
+    keep_largest(rise, report.energy - lowest);
+    keep_largest(kinetic, report.kinetic);
   };
   run(scene, settings, seconds, every, false);
   return rise / kinetic;
@@ -412,8 +412,8 @@ TEST(SweptContacts, HoldTogetherWithExactJoints) {
   double gap = 0.0;
   const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
     EXPECT_EQ(report.status, StepStatus::kOk);
-    deepest = std::max(deepest, report.penetration);
-    gap = std::max(gap, report.joint_gap);
+    keep_largest(deepest, report.penetration);
+    keep_largest(gap, report.joint_gap);
   };
   run(*builder.build(), settings, 5.0, every, false);
   EXPECT_LT(deepest, 1e-3 * 0.2);

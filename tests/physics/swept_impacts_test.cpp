@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/model/scene_builder.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/steady_settings.hpp"
@@ -180,7 +181,7 @@ TEST(SweptImpacts, RestitutionIsLoweredWhereItWouldAddEnergy) {
         double energy = std::numeric_limits<double>::infinity();
         double kinetic = 0.0;
         const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
-          kinetic = std::max(kinetic, report.kinetic);
+          keep_largest(kinetic, report.kinetic);
           EXPECT_LT(report.energy, energy + 0.01 * kinetic);
           energy = std::min(energy, report.energy);
           lowered += report.lowered;

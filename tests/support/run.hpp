@@ -10,6 +10,7 @@
 
 #include "core/lab/verdict.hpp"
 #include "core/sim/simulator.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 
 namespace substep::test {
@@ -81,9 +82,9 @@ inline Outcome run(const Scene& scene, const Settings& settings, double seconds,
     out.n.push_back(report.n_substeps);
     out.track.push_back(simulator.state().x[tracked]);
     out.constraint_error.push_back(report.constraint_error);
-    out.joint_gap = std::max(out.joint_gap, report.joint_gap);
+    keep_largest(out.joint_gap, report.joint_gap);
     out.energy_end = report.energy;
-    out.residual = std::max(out.residual, report.work.residual);
+    keep_largest(out.residual, report.work.residual);
     out.unsolved += report.work.unsolved;
     if (every_frame) every_frame(simulator, report);
     if (report.status != StepStatus::kOk || (stop_when_failed && !verdict.holds())) break;

@@ -3,6 +3,7 @@
 #include "core/forces/applied_forces.hpp"
 
 #include "core/stepping/substep.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -73,7 +74,7 @@ TEST(AppliedForces, NoPointAcceleratesMoreThanTheBound) {
       const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
                       (corner & 4) != 0 ? 1 : -1);
       const Vec3 r = R * std::get<Box>(body.shape).half_extents.cwiseProduct(sign);
-      largest = std::max(largest, (a.head<3>() + a.tail<3>().cross(r)).norm());
+      keep_largest(largest, (a.head<3>() + a.tail<3>().cross(r)).norm());
     }
     EXPECT_LE(largest, bound);
     EXPECT_GT(largest, 0.02 * bound);

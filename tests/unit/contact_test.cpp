@@ -1,6 +1,7 @@
 #include "core/constraints/contact.hpp"
 #include "core/collision/shape_pairs.hpp"
 #include "core/constraints/moved_rows.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -301,8 +302,8 @@ double separation(const Scene& scene) {
       double lowest = kUnbounded;
       double highest = -kUnbounded;
       for (const Vec3& p : corners[0]) lowest = std::min(lowest, side * axis.dot(p));
-      for (const Vec3& p : corners[1]) highest = std::max(highest, side * axis.dot(p));
-      best = std::max(best, lowest - highest);
+      for (const Vec3& p : corners[1]) keep_largest(highest, side * axis.dot(p));
+      keep_largest(best, lowest - highest);
     }
   }
   return best;

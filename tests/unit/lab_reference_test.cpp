@@ -10,6 +10,7 @@
 #include "core/lab/planar_chain.hpp"
 #include "core/lab/reference.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 #include "tests/unit/tree_scenes.hpp"
@@ -75,8 +76,8 @@ TEST(PlanarChain, SwingingBoxAgreesWithTheIndependentDataAndKeepsItsEnergy) {
   for (std::size_t frame = 0; frame < rows.size(); ++frame) {
     if (frame > 0) chain->advance(scene.frame);
     const Vec3 x = chain->centre(box);
-    apart = std::max(apart, std::hypot(x.x() - rows[frame][1], x.y() - rows[frame][2]));
-    drift = std::max(drift, std::abs(chain->kinetic() + potential(scene, *chain) - at_start));
+    keep_largest(apart, std::hypot(x.x() - rows[frame][1], x.y() - rows[frame][2]));
+    keep_largest(drift, std::abs(chain->kinetic() + potential(scene, *chain) - at_start));
     EXPECT_NEAR(chain->kinetic(), rows[frame][10], 1e-4) << frame;
   }
   EXPECT_LT(apart, 1e-8) << "[m], over 10 s";
@@ -193,7 +194,7 @@ TEST(Reference, EveryExactSceneConvergesToIt) {
     const Outcome r = run(scene, fine, 2.0);
     double apart = 0.0;
     for (std::size_t i = 0; i < r.track.size(); ++i) {
-      apart = std::max(apart, (r.track[i] - reference.track[i]).norm());
+      keep_largest(apart, (r.track[i] - reference.track[i]).norm());
     }
     EXPECT_LT(apart, 1e-4) << scene.name;
   }
@@ -231,7 +232,7 @@ TEST(Reference, IsRefinedUntilItIsAsCertainAsRequired) {
   ASSERT_EQ(fine.track.size(), plain.track.size());
   double apart = 0.0;
   for (std::size_t i = 0; i < fine.track.size(); ++i) {
-    apart = std::max(apart, (fine.track[i] - plain.track[i]).norm());
+    keep_largest(apart, (fine.track[i] - plain.track[i]).norm());
   }
   EXPECT_GT(apart, 0.0);
   EXPECT_LE(apart, plain.uncertainty) << "the uncertainty was no promise too much";

@@ -5,6 +5,7 @@
 #include "core/math/across.hpp"
 #include "core/math/turn.hpp"
 #include "core/stepping/integrate.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -54,11 +55,11 @@ RowDifference after(const Scene& scene, State state, const Rows& rows, double dt
     for (int row = 0; row < block.rows; ++row) {
       EXPECT_TRUE(from.is_contact() || errors[row] == block.phi[row]);
       const double change = expected.phi[row] - from.phi[row];
-      difference.phi = std::max(difference.phi, std::abs(block.phi[row] - change));
+      keep_largest(difference.phi, std::abs(block.phi[row] - change));
       for (const bool a : {true, false}) {
         if ((a ? block.a : block.b) < 0) continue;
         const Vec6 J = gradient(block, row, a) - gradient(expected, row, a);
-        difference.J = std::max(difference.J, J.cwiseAbs().maxCoeff());
+        keep_largest(difference.J, J.cwiseAbs().maxCoeff());
       }
     }
   }

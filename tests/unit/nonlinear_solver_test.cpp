@@ -5,6 +5,7 @@
 #include "core/model/names.hpp"
 #include "core/solver/solver.hpp"
 #include "core/stepping/integrate.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/unit/support.hpp"
 
@@ -106,8 +107,8 @@ double error_at_end(Chain& chain) {
     Block end = start;
     move_rows(start, move(start.a), move(start.b), end);
     for (int row = 0; row < start.rows; ++row) {
-      worst = std::max(worst, std::abs(start.bias[row] + end.phi[row] / chain.dt +
-                                       start.softness[row] * start.impulse[row]));
+      keep_largest(worst, std::abs(start.bias[row] + end.phi[row] / chain.dt +
+                                   start.softness[row] * start.impulse[row]));
     }
   }
   return worst;
@@ -139,7 +140,7 @@ double error_of_impulses(Chain& chain, const std::vector<Vec6>& u_star, Forces f
   }
   double worst = 0.0;
   for (std::size_t i = 0; i < u.size(); ++i) {
-    worst = std::max(worst, (u[i] - chain.state.u[i]).norm() / (1.0 + u[i].norm()));
+    keep_largest(worst, (u[i] - chain.state.u[i]).norm() / (1.0 + u[i].norm()));
   }
   return worst;
 }
@@ -239,7 +240,7 @@ TEST(Xpbd, ConvergesToTheEndOfTheSubstepAndNearlyToNewton) {
       EXPECT_LT(error_at_end(chain), 1e-8);
       make_solver(SolverKind::kNewton)->solve(other.system(), settings);
       for (std::size_t i = 0; i < chain.state.u.size(); ++i) {
-        *sum = std::max(*sum, (chain.state.u[i] - other.state.u[i]).norm());
+        keep_largest(*sum, (chain.state.u[i] - other.state.u[i]).norm());
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/math/turn.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -95,8 +96,8 @@ ContactDifference after_a_motion(const Body& a, const Body& b, double by, Random
     const Block& y = carried.all()[k];
     EXPECT_EQ(x.id, y.id);
     EXPECT_EQ(y.rows, 1);
-    worst.phi = std::max(worst.phi, std::abs(x.phi[0] - y.phi[0]));
-    worst.H = std::max(worst.H, (x.H - y.H).norm());
+    keep_largest(worst.phi, std::abs(x.phi[0] - y.phi[0]));
+    keep_largest(worst.H, (x.H - y.H).norm());
     for (int j = 0; j < 6; ++j) {
       worst.J = std::max(
           {worst.J, std::abs(x.J_a[0][j] - y.J_a[0][j]), std::abs(x.J_b[0][j] - y.J_b[0][j])});

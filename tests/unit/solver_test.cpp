@@ -8,6 +8,7 @@
 
 #include "core/math/across.hpp"
 #include "core/solver/bpp.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/unit/support.hpp"
 
@@ -306,8 +307,8 @@ TEST(Bpp, IsExactForAnySoftness) {
     double tree = 0.0;
     double loop = 0.0;
     for (int trial = 0; trial < 100; ++trial) {
-      tree = std::max(tree, error_of_linear_solve(random_tree(random, 8, 0, softness)));
-      loop = std::max(loop, error_of_linear_solve(random_tree(random, 8, 1, softness)));
+      keep_largest(tree, error_of_linear_solve(random_tree(random, 8, 0, softness)));
+      keep_largest(loop, error_of_linear_solve(random_tree(random, 8, 1, softness)));
     }
     EXPECT_LT(tree, 1e-8) << softness;
     EXPECT_LT(loop, 1e-7) << softness;
@@ -329,7 +330,7 @@ double left_of_regularisation(const Problem& problem, double regularisation, int
   Bpp().solve(system, settings);
   double worst = 0.0;
   for (std::size_t i = 0; i < plain.u.size(); ++i) {
-    worst = std::max(worst, (plain.u[i] - refined.u[i]).norm());
+    keep_largest(worst, (plain.u[i] - refined.u[i]).norm());
   }
   return worst;
 }

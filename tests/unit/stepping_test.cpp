@@ -8,6 +8,7 @@
 #include "core/stepping/held_stiffness.hpp"
 #include "core/stepping/substep_clock.hpp"
 #include "core/stepping/time_integrator.hpp"
+#include "tests/support/keep_largest.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/unit/support.hpp"
 
@@ -251,8 +252,8 @@ double growth_of_swing(const Settings& settings, double kappa, double growth) {
     angle += kDt * axis.dot(body.state.u[0].tail<3>());
     dt_previous = kDt;
     if (!(std::abs(angle) < 1e30)) return 1e30;
-    if (step < kSteps / 10) first = std::max(first, std::abs(angle));
-    if (step >= kSteps - kSteps / 10) last = std::max(last, std::abs(angle));
+    if (step < kSteps / 10) keep_largest(first, std::abs(angle));
+    if (step >= kSteps - kSteps / 10) keep_largest(last, std::abs(angle));
   }
   return last / first;
 }

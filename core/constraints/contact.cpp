@@ -46,6 +46,7 @@ void friction_rows(const ContactModel& model, double mu, const Vec3& along, Bloc
   block.t2 = block.n.cross(block.t1);
   block.mu = mu;
   block.share[0] = block.share[1] = 1.0;
+  block.sliding = block.across = 0.0;
   block.rows = 3;
   for (int row = 1; row < 3; ++row) {
     block.phi[row] = 0.0;  // no position correction for tangential slip

@@ -40,6 +40,9 @@ void move_rows(const Block& start, const Motion& a, const Motion& b, Block& move
 /// Change of phi of a joint's rows. @param phi out, one per row
 void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi);
 
+/// Sliding distances of a contact along t1 and t2, as in move_rows(). @param by out, two [m]
+void moved_sliding(const Block& start, const Motion& a, const Motion& b, double* by);
+
 /// Change of phi of a contact's normal, as in move_rows().
 double moved_gap(const Block& start, const Motion& a, const Motion& b);
 

@@ -129,7 +129,7 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
      .title = "PGS",
      .full_name = "Projected Gauss-Seidel",
      .reference = "Erleben 2013",
-     .about = "a fixed number of sweeps over the rows of Eq. 3.",
+     .about = "a fixed number of sweeps over the rows of Eq. 3; sliding friction is of first order.",
      .sweeps = true,
      .soft_drift = true,
      .work = 0.15,
@@ -150,7 +150,8 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
      .title = "XPBD",
      .full_name = "Extended position-based dynamics",
      .reference = "Mueller et al. 2020",
-     .about = "sweeps that correct poses directly, each row along its current error.",
+     .about = "sweeps that correct poses directly, each row along its current error; of first "
+              "order.",
      .sweeps = true,
      .at_end = true,
      .work = 0.3,
@@ -300,8 +301,7 @@ inline constexpr std::array<IntegratorEntry, kCountOf<Integrator>> kIntegrators{
      "Verlet 1967"},
     {Integrator::kStormer, "stormer", "Störmer",
      "Leapfrog with poses corrected for the change of acceleration, and joints that hold at the "
-     "end of the sub-step: fourth order with one solve, for scenes with joints only, while dt² k < "
-     "2 M.",
+     "end of the sub-step: fourth order with one solve, second with contacts, while dt² k < 2 M.",
      "Störmer 1907"},
 }};
 

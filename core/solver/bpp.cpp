@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace substep {
 
@@ -47,6 +48,7 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
   for (int pass = 0; pass < kPasses; ++pass) {
     ++report.passes;
     set_friction_bounds(system);
+    if (settings.friction_cone == FrictionCone::kCone) soften_sliding(system, pass);
     for (int step = 0;; ++step) {
       solve_active_set(system);
       if (over_limits(system, report)) return;
@@ -76,7 +78,11 @@ void Bpp::centre(const System& system) {
 }
 
 SolveReport Bpp::find_velocities(const System& system, const Settings& settings) {
-  if (settings.friction_cone == FrictionCone::kCone) align_tangents(system.blocks, system.u);
+  if (settings.friction_cone == FrictionCone::kCone) align_tangents(system);
+  return find_with_tangents(system, settings);
+}
+
+SolveReport Bpp::find_with_tangents(const System& system, const Settings& settings) {
   if (!ldlt_.begin(system)) {
     return {.status = SolveStatus::kOverLimits, .memory_needed = ldlt_.needed_memory()};
   }
@@ -104,7 +110,7 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
 }
 
 SolveReport Bpp::find_velocities_again(const System& system, const Settings& settings) {
-  if (any_contact_ || settings.refinements > 0) return find_velocities(system, settings);
+  if (any_contact_ || settings.refinements > 0) return find_with_tangents(system, settings);
   SolveReport report;
   const std::int64_t before = ldlt_.flops();
   if (ldlt_.held()) {
@@ -163,6 +169,11 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
   has_impulses_ = true;
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
+    if (block.rows == 3 && settings.friction_cone == FrictionCone::kCone) {  // has its own cone
+      block.softness[2] = block.softness[1];
+      block.bias[2] -= std::exchange(block.across, 0.0);
+      block.sliding = 0.0;
+    }
     block.impulse[0] = std::max(0.0, block.impulse[0]);
     const double bound = block.mu * block.impulse[0];
     for (int row = 1; row < block.rows; ++row) {
@@ -220,6 +231,20 @@ void Bpp::set_friction_bounds(const System& system) {
       block.active_set[row] = -1;
       ldlt_.touch(i);
     }
+  }
+}
+
+void Bpp::soften_sliding(const System& system, int pass) {
+  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+    Block& block = system.blocks[i];
+    if (block.rows != 3 || !block.is_contact()) continue;
+    if (system.u_sliding.empty() && pass > 0) {  // that of the last pass
+      double speed[kMaxRows];
+      row_speeds(block, system.u, speed);
+      block.sliding = std::sqrt(speed[1] * speed[1] + speed[2] * speed[2]);
+      block.softness[2] = block.softness[1];
+    }
+    if (soften_across(block) && block.active_set[2] == 0) ldlt_.touch(i);
   }
 }
 

@@ -28,6 +28,8 @@ class Bpp final : public Solver {
   std::int64_t find_impulses(std::span<Block> blocks) override;
 
  private:
+  /// The same for rows whose tangents are aligned.
+  SolveReport find_with_tangents(const System& system, const Settings& settings);
   /// Starts from the current active set and factor.
   void find_active_set(const System& system, const Settings& settings, SolveReport& report);
   void centre(const System& system);
@@ -39,6 +41,7 @@ class Bpp final : public Solver {
   };
   void start_active_set(const System& system);
   void set_friction_bounds(const System& system);
+  void soften_sliding(const System& system, int pass);
   /// True if the solution stays valid under the friction bounds it implies.
   [[nodiscard]] bool bounds_settled(const System& system) const;
   void solve_active_set(const System& system);

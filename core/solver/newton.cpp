@@ -240,8 +240,9 @@ double Newton::take(const System& system) {
 SolveReport Newton::find_velocities(const System& system, const Settings& settings) {
   u_star_.assign(system.u.begin(), system.u.end());
   Settings linear_settings = settings;
-  if (settings.friction_cone == FrictionCone::kCone) {
-    align_tangents(system.blocks, u_star_);
+  const bool isotropic = settings.friction_cone == FrictionCone::kCone;
+  if (isotropic) {
+    align_tangents(system);
     linear_settings.friction_cone = FrictionCone::kBox;  // of these tangents, in every step
   }
   u_.resize(u_star_.size());
@@ -258,6 +259,9 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
       break;
     }
     relinearise(system, settings.forces);
+    for (Block& block : rows_) {
+      if (isotropic && block.is_contact() && block.rows == 3) soften_across(block);
+    }
     stiffen(system, settings.forces);
     System linear{rows_, inverse_mass_, u_, system.u_before, system.dt};
     linear.limits = {system.limits.memory, system.limits.work - static_cast<double>(report.flops)};

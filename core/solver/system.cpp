@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/solver/body_products.hpp"
 
@@ -54,6 +55,21 @@ void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
     const double* axis = block.J_a[row] + 3;
     speed[row] += sign * (axis[0] * u[3] + axis[1] * u[4] + axis[2] * u[5]);
   }
+}
+
+/// The mean of the sliding before and after as a bias and a softness of row 2,
+///   beta s_2 + s_2+ + (1 + beta) |s|/(mu x_n) x_2 = 0,
+/// with beta = 1 where the sliding hardly changes, and 0 where it begins or ends: there the mean
+/// would let it swing. @param before, after row speeds in the tangents before they turn by (c, s)
+void mean_sliding(const double* before, const double* after, double c, double s, Block& block) {
+  const double square = before[1] * before[1] + before[2] * before[2];
+  const double gained[] = {after[1] - before[1], after[2] - before[2]};
+  const double changed = gained[0] * gained[0] + gained[1] * gained[1];
+  if (square == 0.0) return;
+  const double beta = square / (square + changed);
+  block.sliding = (1.0 + beta) * std::sqrt(square);
+  block.across = beta * (c * before[2] - s * before[1]);
+  block.bias[2] += block.across;
 }
 
 }  // namespace
@@ -112,6 +128,17 @@ double friction_bound(const Block& block, int row, double normal) {
   return block.mu * std::max(0.0, normal) * block.share[row - 1];
 }
 
+bool sticks(const Block& contact) {
+  constexpr double kWithin = 1.0 - 1e-9;  // of the bound: at it, a force is rounded
+  if (contact.rows != 3) return false;
+  const auto at_bound = [&](int row) { return std::abs(contact.active_set[row]) == 1; };
+  if (at_bound(1) || at_bound(2)) return false;  // BPP: the bound may be that of an earlier pass
+  const double bound = kWithin * contact.mu * contact.impulse[0];
+  const double square =
+      contact.impulse[1] * contact.impulse[1] + contact.impulse[2] * contact.impulse[2];
+  return bound > 0.0 && square < bound * bound;
+}
+
 void point_cone(Block& block, double along_t1, double along_t2) {
   const double length = std::sqrt(along_t1 * along_t1 + along_t2 * along_t2);
   const double even = std::sqrt(0.5);
@@ -119,17 +146,23 @@ void point_cone(Block& block, double along_t1, double along_t2) {
   block.share[1] = length > 0.0 ? std::abs(along_t2) / length : even;
 }
 
-void align_tangents(std::span<Block> blocks, std::span<const Vec6> u) {
+void align_tangents(const System& system) {
   constexpr double kLeastSliding = 1e-6;  // of the normal speed: slower has no direction [-]
-  for (Block& block : blocks) {
+  const bool knows_before = !system.u_sliding.empty();
+  for (Block& block : system.blocks) {
     if (block.rows != 3 || !block.is_contact()) continue;
     block.share[0] = block.share[1] = 1.0;  // sweeps of a fallback may have changed it
-    double speed[kMaxRows];
-    row_speeds(block, u, speed);
-    const double length = std::sqrt(speed[1] * speed[1] + speed[2] * speed[2]);
-    if (!(length > kLeastSliding * std::abs(speed[0]))) continue;
-    const double c = speed[1] / length;
-    const double s = speed[2] / length;
+    block.sliding = block.across = 0.0;
+    block.softness[2] = block.softness[1];
+    double after[kMaxRows];
+    double before[kMaxRows];
+    row_speeds(block, system.u, after);
+    row_speeds(block, knows_before ? system.u_sliding : system.u, before);
+    const double mean[] = {0.5 * (before[1] + after[1]), 0.5 * (before[2] + after[2])};
+    const double length = std::sqrt(mean[0] * mean[0] + mean[1] * mean[1]);
+    if (!(length > kLeastSliding * std::abs(after[0]))) continue;
+    const double c = mean[0] / length;
+    const double s = mean[1] / length;
     const auto turn = [&](double& along_t1, double& along_t2) {
       const double first = c * along_t1 + s * along_t2;
       along_t2 = c * along_t2 - s * along_t1;
@@ -142,7 +175,17 @@ void align_tangents(std::span<Block> blocks, std::span<const Vec6> u) {
     for (int j = 0; j < 3; ++j) turn(block.t1[j], block.t2[j]);
     turn(block.bias[1], block.bias[2]);
     turn(block.given[1], block.given[2]);
+    if (knows_before && !sticks(block)) mean_sliding(before, after, c, s, block);
   }
+}
+
+bool soften_across(Block& contact) {
+  const double bound = contact.mu * std::max(0.0, contact.impulse[0]);
+  if (contact.softness[2] != contact.softness[1] || !(contact.sliding > 0.0 && bound > 0.0)) {
+    return false;
+  }
+  contact.softness[2] += contact.sliding / bound;
+  return true;
 }
 
 double lcp_residual(const System& system) {

@@ -51,6 +51,10 @@ struct System {
   // The part of every softness that is not compliance; refinements remove it [1/kg].
   double regularisation = 0.0;
 
+  // Per body: velocities before this sub-step, whose mean with u+ is the sliding of contacts [m/s,
+  // rad/s]; if empty, u+ alone.
+  std::span<const Vec6> u_sliding{};
+
   // Per body: initial guess of Newton [m/s, rad/s]; if empty, u_before.
   std::span<const Vec6> u_guess{};
 
@@ -118,17 +122,28 @@ void apply_impulse(const Block& block, const double* impulse,
 /// The bound of a contact's row, given its normal impulse [N s].
 double friction_bound(const Block& block, int row, double normal);
 
+/// True for a contact with friction whose impulse, a seed or a solution, is within its bound.
+bool sticks(const Block& contact);
+
 /// Sets Block::share of the cone for a friction impulse; equal shares if it is zero.
 void point_cone(Block& block, double along_t1, double along_t2);
 
 /// Isotropic friction for solvers that bound each tangent: rotates the tangents of every contact,
-/// with their rows, so that t1 points along its sliding under u. A contact that slides then takes
-/// mu times its normal force against it, whatever its direction, and one that sticks takes as much
-/// before it slides; across it the box allows as much again. Scaling the bounds of fixed tangents
-/// to the direction of the force instead would leave a contact that sticks free to slide across its
-/// force. Impulses are not rotated: those of the last sub-step belong to its sliding, too.
-/// @param u before constraint impulses, per body [m/s, rad/s]
-void align_tangents(std::span<Block> blocks, std::span<const Vec6> u);
+/// with their rows, so that t1 points along its sliding, and prepares soften_across(). The sliding
+/// is the mean of that of u_sliding and u of the system; without u_sliding it is that of u. Changes
+/// bias and softness of row 2, once for each solve. Impulses are not rotated: those of the last
+/// sub-step belong to its sliding, too.
+void align_tangents(const System& system);
+
+/// Row 2 of a contact that slides yields: the force points against the sliding, so that to first
+/// order that across t1 is its share of the bound,
+///   x_2 = -mu x_n s_2/|s|,   or   s_2 + |s|/(mu x_n) x_2 = 0,
+/// with s the mean sliding of the sub-step. Otherwise bodies of unequal inertia, or with several
+/// contacts, are kept from sliding across t1. A contact that sticks has |s| = 0 and does not yield.
+/// x_n is the first normal impulse that is known, mostly that of the last sub-step: one that
+/// followed the passes of a solve would let them swing. Adds to the softness of row 2.
+/// @return true if it does
+bool soften_across(Block& contact);
 
 /// Largest violation of bounds [N s] and complementarity [m/s] of a solved system.
 double lcp_residual(const System& system);

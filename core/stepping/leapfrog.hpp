@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/stepping/euler.hpp"
+#include "core/stepping/rolling.hpp"
 
 namespace substep {
 
@@ -13,6 +14,9 @@ class Leapfrog : public Euler {
     return 0.5 * (dt_previous + dt);
   }
 
+  std::int64_t aim(const Substep& sub, State& state) override {
+    return Euler::aim(sub, state) + aim_rolling(sub);
+  }
   [[nodiscard]] bool starts_at_poses() const override { return true; }
 
  protected:

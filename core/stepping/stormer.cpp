@@ -9,6 +9,7 @@
 #include "core/stepping/first_changes.hpp"
 #include "core/stepping/integrate.hpp"
 #include "core/stepping/leapfrog.hpp"
+#include "core/stepping/rolling.hpp"
 
 namespace substep {
 
@@ -44,6 +45,10 @@ class Stormer : public Leapfrog {
   void settle(Substep& sub, State& state) override;
   void move_poses(const Substep& sub, State& state) override;
   void synchronise(const Substep& sub, State& state) override;
+  /// As the velocities that the rows hold: of the carried momentum, with the inertia at the poses.
+  [[nodiscard]] std::span<const Vec6> velocities_at_start(const Substep& sub) const override {
+    return sub.u_before;
+  }
 
  protected:
   [[nodiscard]] bool keeps_momentum(std::size_t /*body*/) const override { return true; }
@@ -203,8 +208,8 @@ std::int64_t Stormer::aim(const Substep& sub, State& state) {
   return aims ? aim_flops(sub.rows, std::ssize(sub.part->moving)) : 0;
 }
 
-// Joints must hold at the end poses; rows are linearised about poses extrapolated with the last
-// change of acceleration: the motion w^ from u^.
+// Joints must hold at the end poses, and contacts that stick must not slide on the way; rows are
+// linearised about poses extrapolated with the last change of acceleration: the motion w^ from u^.
 void Stormer::aim_at_poses(const Substep& sub, State& state) {
   for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &u_guess_}) {
     of_bodies->resize(state.u.size(), Vec6::Zero());
@@ -225,9 +230,14 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
   }
   const double share = sub.dt / sub.planned_dt;  // of the gap
   for (Block& block : sub.rows) {
-    if (block.is_contact()) continue;
     double gained[kMaxRows];
-    moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
+    if (!block.is_contact()) {
+      moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
+    } else if (sticks(block)) {
+      moved_sliding(block, motions_.of(block.a), motions_.of(block.b), gained + 1);
+    } else {
+      continue;
+    }
     double speed[kMaxRows];
     row_speeds(block, u_guess_, speed);
     double per_g = 1.0;
@@ -235,6 +245,10 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
       if (body < 0 || !changes_are_known(state.acceleration[index(body)])) continue;
       const double time = sub.impulse_time[index(body)];
       per_g = 1.0 / (1.0 + growth_of(sub.dt, time) * sub.dt / (6.0 * time));
+    }
+    if (block.is_contact()) {
+      for (int row = 1; row < 3; ++row) block.bias[row] = per_g / sub.dt * gained[row] - speed[row];
+      continue;
     }
     for (int row = 0; row < block.rows; ++row) {
       if (block.C[row] > 0.0 && !(block.spring_ahead[row] > 0.0)) continue;  // its force is given

@@ -26,6 +26,11 @@ class TimeIntegrator {
   [[nodiscard]] virtual Vec3 spin_at_start(const Substep& sub, std::size_t body) const {
     return sub.u_before[body].tail<3>();
   }
+  /// Velocities before the forces of the sub-step whose mean with those after its solve is that of
+  /// the start.
+  [[nodiscard]] virtual std::span<const Vec6> velocities_at_start(const Substep& sub) const {
+    return sub.u_start;
+  }
   /// Takes it after impacts. @return that of Substep::u_before
   virtual Vec3 strike(const Substep& /*sub*/, std::size_t /*body*/, const Vec3& spin_at_start) {
     return spin_at_start;

@@ -6,11 +6,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <mutex>
 #include <string_view>
 #include <system_error>
 #include <thread>
+#include <utility>
 
-#include "app/cli/commands.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 
 namespace substep::cli {
@@ -18,25 +20,46 @@ namespace {
 
 // Long enough for a command that checks the flag after every frame, short enough for the user.
 constexpr std::chrono::milliseconds kPatience{120};
+constexpr std::chrono::milliseconds kSlice{10};
 
 std::atomic<bool> g_cancelled{false};
+std::atomic<int> g_signal{0};  // the first
+std::timed_mutex g_saying;     // held while the message is printed
+bool g_said = false;
 sem_t g_signalled;
 
 extern "C" void note_cancel(int signal) {
+  int none = 0;
+  g_signal.compare_exchange_strong(none, signal);
   g_cancelled = true;
   sem_post(&g_signalled);
-  std::signal(signal, SIG_DFL);
 }
 
 /// Ends the program if the command has not done so: a single frame may take minutes.
 void end_when_signalled() {
   while (sem_wait(&g_signalled) != 0) {
   }
-  std::this_thread::sleep_for(kPatience);
+  for (auto waited = kSlice; waited <= kPatience && sem_trywait(&g_signalled) != 0;
+       waited += kSlice) {
+    std::this_thread::sleep_for(kSlice);
+  }
   end_outputs(true);
-  constexpr std::string_view kText = "cancelled\n";
-  [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, kText.data(), kText.size());
-  std::_Exit(kCancelled);
+  const std::unique_lock lock(g_saying, kSlice);  // standard error may be a blocked pipe
+  if (lock.owns_lock() && !g_said) {
+    constexpr std::string_view kText = "cancelled\n";
+    [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, kText.data(), kText.size());
+  }
+  std::_Exit(cancelled_code());
+}
+
+/// A program that is started with nohup, or in the background by a script, keeps ignoring them.
+void handle(int signal) {
+  struct sigaction action {};
+  if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) return;
+  action = {};
+  action.sa_handler = note_cancel;
+  action.sa_flags = SA_RESTART;
+  ::sigaction(signal, &action, nullptr);
 }
 
 bool watch() {
@@ -46,8 +69,7 @@ bool watch() {
   } catch (const std::system_error&) {
     // No thread available: commands that check the flag still end.
   }
-  std::signal(SIGINT, note_cancel);
-  std::signal(SIGTERM, note_cancel);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal);
   return true;
 }
 
@@ -56,6 +78,16 @@ bool watch() {
 const std::atomic<bool>& cancel_on_signal() {
   [[maybe_unused]] static const bool watching = watch();
   return g_cancelled;
+}
+
+int cancelled_code() {
+  constexpr int kSignalled = 128;
+  return kSignalled + (g_signal != 0 ? g_signal.load() : SIGINT);
+}
+
+void say_cancelled(const std::string& what) {
+  const std::lock_guard lock(g_saying);
+  if (!std::exchange(g_said, true)) complain("cancelled%s", what.c_str());
 }
 
 }  // namespace substep::cli

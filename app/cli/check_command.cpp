@@ -6,6 +6,7 @@
 #include "app/cli/cancel.hpp"
 #include "app/cli/checks.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/flags.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/within.hpp"
@@ -95,7 +96,7 @@ int check_all(const CheckOptions& options) {
                 unexpected, depends);
   }
   if (!complete) {
-    complain("cancelled; the completed runs are printed");
+    say_cancelled("; the completed runs are printed");
     return kCancelled;
   }
   return exit_code == kOk && unexpected > 0 ? kUnexpectedVerdict : exit_code;
@@ -110,9 +111,8 @@ void add_check(CLI::App& app, int& exit_code) {
   auto* scenes = command->add_option("scene", options->scenes, "names or files of scenes");
   auto* all = command->add_flag("--all", options->all, "all shipped scenes");
   scenes->excludes(all);
-  auto* hard = command->add_flag("--hard", options->hard,
-                                 "the hard set with all candidate settings (minutes)");
-  hard->excludes(scenes)->excludes(all);
+  command->add_flag("--hard", options->hard,
+                    "the hard set with all candidate settings, as Markdown (minutes)");
   command->add_flag("--own", options->own, "only the scenes' own settings");
   command
       ->add_option("--seed", options->seed,
@@ -125,8 +125,9 @@ void add_check(CLI::App& app, int& exit_code) {
       "Columns: as expected or not; scene; run; expected; observed; margin, the unused\n"
       "share of the criterion (or, for a failure, of the time); sub-steps; wall time.\n"
       "Example:\n  substep check swinging_box bridge");
-  command->callback([options, &exit_code] {
+  command->callback([options, command, &exit_code] {
     if (options->hard) {
+      refuse_beside(*command, "--hard", {"--jobs"});
       exit_code = print_hard_table(options->jobs) ? kOk : kCancelled;
       return;
     }

@@ -12,7 +12,8 @@ inline constexpr int kUnexpectedVerdict = 1;
 inline constexpr int kBadInput = 2;
 inline constexpr int kNotFinite = 3;
 inline constexpr int kInternalError = 4;  // out of memory, or an internal error
-inline constexpr int kCancelled = 130;    // the shells' code for Ctrl-C
+// The shells' code for Ctrl-C; main() returns that of the signal, and says so: cancelled_code().
+inline constexpr int kCancelled = 130;
 
 // Each adds its subcommand and writes its exit code.
 void add_run(CLI::App& app, int& exit_code);

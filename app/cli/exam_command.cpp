@@ -108,7 +108,7 @@ void add_exam(CLI::App& app, int& exit_code) {
   command->add_option("--html", options->html, "write a page with every run")
       ->check(named())
       ->excludes(list);
-  command->add_flag("--quiet", options->quiet, "print the summary only");
+  command->add_flag("--quiet", options->quiet, "print the summary only")->excludes(list);
   command->footer(
       "A case passes if at least one run is within all of its tolerances, and every run meets the\n"
       "requirements on all runs: the order of its method, and those of the case. Columns: method;\n"

@@ -70,7 +70,7 @@ class Experiments {
     }
     if (!run_one(*experiment.experiment, experiment.scene)) return kBadInput;
     if (!cancel_on_signal()) return std::nullopt;
-    complain("cancelled at line %zu; the completed results are printed", number_);
+    say_cancelled(" at line " + std::to_string(number_) + "; the completed results are printed");
     return kCancelled;
   }
 

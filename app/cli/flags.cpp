@@ -10,6 +10,19 @@
 namespace substep::cli {
 namespace {
 
+constexpr const char* kGroup = "Settings (default: those of the scene)";
+
+bool is_flag(const SettingField& field) {
+  return std::holds_alternative<FlagSetting>(field.member);
+}
+
+/// Without the dashes.
+std::string flag_name(const SettingField& field) {
+  std::string name(field.name);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
 // Help text of the flag, with a description of each method.
 std::string help_of(const SettingField& field) {
   std::string help(field.help);
@@ -31,7 +44,37 @@ std::string help_of(const SettingField& field) {
 }  // namespace
 
 void SettingsFlags::add_to(CLI::App& command) {
-  constexpr const char* kGroup = "Settings (default: those of the scene)";
+  add_preset(command);
+  for (const SettingField& field : setting_fields()) {
+    is_flag(field) ? add_flag(command, field) : add_value(command, field);
+  }
+}
+
+void SettingsFlags::add_to(CLI::App& command, std::span<const std::string_view> refused,
+                           const std::string& reason) {
+  // Hidden, and so that the reason is given: the library only knows unexpected arguments.
+  const auto refuse = [&](const std::string& names, const std::string& name, bool with_value) {
+    const auto refusing = [name, reason](const auto&) {
+      throw CLI::ValidationError("--" + name, reason);
+    };
+    CLI::Option* option =
+        with_value ? command.add_option_function<std::string>(names, refusing)
+                   : command.add_flag_function(names, [refusing](std::int64_t n) { refusing(n); });
+    option->group("");
+  };
+  refuse("--preset", "preset", true);
+  for (const SettingField& field : setting_fields()) {
+    if (std::find(refused.begin(), refused.end(), field.name) == refused.end()) {
+      is_flag(field) ? add_flag(command, field) : add_value(command, field);
+    } else if (const std::string name = flag_name(field); is_flag(field)) {
+      refuse("--" + name + ",--no-" + name, name, false);
+    } else {
+      refuse("--" + name, name, true);
+    }
+  }
+}
+
+void SettingsFlags::add_preset(CLI::App& command) {
   command
       .add_option_function<std::string>(
           "--preset",
@@ -45,34 +88,38 @@ void SettingsFlags::add_to(CLI::App& command) {
           "one")
       ->type_name(preset_names())
       ->group(kGroup);
-  for (const SettingField& field : setting_fields()) {
-    std::string name(field.name);
-    std::replace(name.begin(), name.end(), '_', '-');
-    const std::string help = help_of(field);
-    if (std::holds_alternative<FlagSetting>(field.member)) {
-      command
-          .add_flag_function(
-              "--" + name + ",!--no-" + name,
-              [this, &field](std::int64_t count) { take(field, count > 0 ? "true" : "false"); },
-              help)
-          ->disable_flag_override()  // the library accepts any text after '=', and throws
-          ->group(kGroup);
-    } else {
-      command
-          .add_option_function<std::string>(
-              "--" + name, [this, &field](const std::string& text) { take(field, text); }, help)
-          ->type_name(allowed_values(field))
-          ->group(kGroup);
-    }
-  }
+}
+
+void SettingsFlags::add_flag(CLI::App& command, const SettingField& field) {
+  const std::string name = flag_name(field);
+  // The library would add --name and --no-name up.
+  const auto one_of_both = [name, first = std::string()](const std::string& value) mutable {
+    if (first.empty()) first = value;
+    if (first != value) throw CLI::ExcludesError("--" + name, "--no-" + name);
+  };
+  command
+      .add_flag_function(
+          "--" + name + ",!--no-" + name,
+          [this, &field](std::int64_t count) { take(field, count > 0 ? "true" : "false"); },
+          help_of(field))
+      ->each(one_of_both)
+      ->disable_flag_override()  // the library accepts any text after '=', and throws
+      ->group(kGroup);
+}
+
+void SettingsFlags::add_value(CLI::App& command, const SettingField& field) {
+  command
+      .add_option_function<std::string>(
+          "--" + flag_name(field), [this, &field](const std::string& text) { take(field, text); },
+          help_of(field))
+      ->type_name(allowed_values(field))
+      ->group(kGroup);
 }
 
 void SettingsFlags::take(const SettingField& field, const std::string& text) {
   Settings scratch;
   if (const auto problem = set_setting(field, text, scratch)) {
-    std::string flag = "--" + std::string(field.name);
-    std::replace(flag.begin(), flag.end(), '_', '-');
-    throw CLI::ValidationError(flag, *problem);
+    throw CLI::ValidationError("--" + flag_name(field), *problem);
   }
   given_.emplace_back(&field, text);
 }
@@ -96,6 +143,16 @@ void LengthFlags::add_to(CLI::App& command) {
 std::int64_t LengthFlags::count(const Scene& scene) const {
   if (frames) return *frames;
   return std::llround(seconds.value_or(scene.criteria.duration) / scene.frame);
+}
+
+void refuse_beside(const CLI::App& command, const std::string& flag,
+                   std::initializer_list<std::string_view> allowed) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || name == flag) continue;
+    if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
+    throw CLI::ExcludesError(name, flag);
+  }
 }
 
 void BudgetFlags::add_to(CLI::App& command) {

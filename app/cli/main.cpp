@@ -63,7 +63,8 @@ int parse_and_run(int argc, char** argv) {
       "  substep sweep swinging_box\n"
       "  substep check --all\n"
       "Exit code: 0 success, 1 a verdict is not as expected, 2 bad input, 3 non-finite state,\n"
-      "4 out of memory or internal error, 130 cancelled.");
+      "4 out of memory or internal error; cancelled: 130 by Ctrl-C, 143 by SIGTERM, 129 by "
+      "SIGHUP.");
   int exit_code = kOk;
   for (const auto add : {add_run, add_sweep, add_cost, add_recommend, add_merge, add_reproduce,
                          add_check, add_exam, add_hash, add_scenes, add_generate, add_map}) {
@@ -77,7 +78,9 @@ int parse_and_run(int argc, char** argv) {
     app.exit(error);
     return is_help ? kOk : kBadInput;
   }
-  return exit_code;
+  if (exit_code != kCancelled) return exit_code;
+  say_cancelled();
+  return cancelled_code();
 }
 
 /// Ends the program when memory is exhausted. An exception would not always propagate: the JSON

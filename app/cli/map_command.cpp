@@ -103,7 +103,7 @@ int run_map(const MapOptions& options) {
       },
       cancel_on_signal());
   if (!complete) {
-    complain("cancelled; the completed runs are in the table, the picture is not written");
+    say_cancelled("; the completed runs are in the table, the picture is not written");
     return out.close() ? kCancelled : kBadInput;
   }
   if (!out.close()) return kBadInput;  // then the checks ended early and cells have no run

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -47,17 +47,23 @@ std::vector<fs::path> parts_of(const fs::path& folder) {
   return parts;
 }
 
-/// Reads a file of results without a truncated last line. @return false, with a message on stderr,
-/// if it cannot be read or is too large
+/// Reads a file of results without a truncated last line, which is reported. @return false, with a
+/// message on stderr, if it cannot be read or is too large
 bool read_part(const std::string& path, std::string& text) {
   constexpr std::size_t kMostLine = 1U << 20U;  // [bytes]
   std::ifstream stream(path, std::ios::binary);
   text.clear();
   std::string line;
+  std::size_t number = 0;
   while (stream) {
     const Reading reading = read_line_bounded(stream, kMostLine, line);
     if (reading == Reading::kFailed) break;
-    if (reading == Reading::kEnd || reading == Reading::kCut) return true;
+    if (reading == Reading::kEnd) return true;
+    ++number;
+    if (reading == Reading::kCut && !is_whole_line(line)) {
+      complain("%s:%zu: the last line is cut short; it is left out", path.c_str(), number);
+      return true;
+    }
     if (reading == Reading::kTooLong || text.size() + line.size() >= kMostResults) {
       complain("%s: has a line of more than %zu bytes, or more than %zu in all", path.c_str(),
                kMostLine, kMostResults);
@@ -80,59 +86,105 @@ bool has_parts(const fs::path& folder, const std::vector<fs::path>& parts) {
   return false;
 }
 
+/// The scene of the results, and where it is known from.
+struct MergedScene {
+  std::shared_ptr<const Scene> scene;  // null: not known, the report does without
+  std::string from;
+
+  [[nodiscard]] ResultsScene key() const { return {scene->name, scene_hash(*scene), from}; }
+};
+
+/// The scene of --scene, or that which `sweep` saves beside its results. @return nothing, with a
+/// message on stderr, if it cannot be read
+std::optional<MergedScene> given_scene(const MergeOptions& options) {
+  MergedScene given;
+  const std::string kept = (fs::path(options.folder) / "scene.json").string();
+  std::error_code error;
+  if (!options.scene.empty()) {
+    given = {load_scene(options.scene), "--scene " + options.scene};
+  } else if (fs::exists(kept, error)) {
+    given = {load_scene(kept), kept};
+  } else {
+    return given;
+  }
+  return given.scene ? std::optional(given) : std::nullopt;
+}
+
+/// The shipped scene of that name, if there is one; null otherwise. @return nothing, with a message
+/// on stderr, if the results are of another scene of that name
+std::optional<MergedScene> shipped_scene(const ResultsScene& results) {
+  const std::vector<std::string> shipped = shipped_names();
+  MergedScene found;
+  if (std::count(shipped.begin(), shipped.end(), results.name) == 0) return found;
+  found = {load_scene(results.name), "`substep scenes`"};
+  if (!found.scene) return std::nullopt;
+  if (scene_hash(*found.scene) == results.hash) return found;
+  complain(
+      "%s: /scene_hash: %s is not that of %s in `substep scenes`, %s; its file is given with "
+      "--scene",
+      results.from.c_str(), hex_text(results.hash).c_str(), results.name.c_str(),
+      hex_text(scene_hash(*found.scene)).c_str());
+  return std::nullopt;
+}
+
+/// The ids in the order of an unsharded sweep.
+std::vector<std::string> plan_of(const Scene& scene, const std::vector<Json>& results) {
+  std::set<std::pair<double, int>> kinds;  // duration and seed
+  for (const Json& result : results) {
+    kinds.emplace(result.value("seconds", 0.0), result.value("seed", 0));
+  }
+  std::vector<std::string> plan;
+  Experiment experiment = experiment_of(scene, scene.settings);
+  for (const auto& [seconds, seed] : kinds) {
+    for (const SweepPoint& point : default_sweep(scene)) {
+      experiment.settings = point.settings;
+      experiment.seed = seed;
+      experiment.load = point.load;
+      experiment.duration = seconds;
+      plan.push_back(experiment_id(experiment));
+    }
+  }
+  return plan;
+}
+
 int merge(const MergeOptions& options) {
   const fs::path folder = options.folder;
   std::vector<fs::path> parts = parts_of(folder);
   parts.insert(parts.end(), options.files.begin(), options.files.end());
   if (!has_parts(folder, parts)) return kBadInput;
+  auto merged = given_scene(options);
+  if (!merged) return kBadInput;
 
-  std::map<std::string, std::string> lines;
-  std::vector<std::string> order;
-  for (const fs::path& part : parts) {
-    std::string text;
-    if (!read_part(part.string(), text)) return kBadInput;
-    if (!read_results(part.string(), text, lines, order)) return kBadInput;
-  }
+  StoredResults results;
+  if (merged->scene) results.bind(merged->key());
+  const std::string path = (folder / "results.jsonl").string();
   std::error_code error;
-  fs::create_directories(folder, error);
-  ResultsFile file;
-  if (!file.open((folder / "results.jsonl").string())) return kBadInput;
-  for (const std::string& id : order) {
-    if (!file.contains(id) && !file.append(id, Json::parse(lines.at(id), nullptr, false))) {
-      return kBadInput;
-    }
+  // Read here too: nothing is written if the results are not of one scene.
+  std::vector<fs::path> sources = parts;
+  if (fs::exists(path, error)) sources.insert(sources.begin(), path);
+  for (const fs::path& source : sources) {
+    std::string text;
+    if (!read_part(source.string(), text)) return kBadInput;
+    if (!results.read(source.string(), text)) return kBadInput;
   }
-  if (file.size() == 0) {
+  if (results.order().empty()) {
     complain("%s: there are no results to merge", folder.string().c_str());
     return kBadInput;
   }
+  if (!merged->scene) merged = shipped_scene(*results.scene());
+  if (!merged) return kBadInput;
 
-  // The order of an unsharded sweep.
-  const std::vector<Json> results = file.results();
-  const std::string name = results.front().value("scene", "");
-  const std::vector<std::string> shipped = shipped_names();
-  std::shared_ptr<const Scene> scene;
-  if (!options.scene.empty() || std::count(shipped.begin(), shipped.end(), name) > 0) {
-    scene = load_scene(options.scene.empty() ? name : options.scene);
-    if (!scene) return kBadInput;
-  }
-  std::vector<std::string> plan;
-  if (scene) {
-    std::set<std::pair<double, int>> kinds;  // duration and seed
-    for (const Json& result : results) {
-      kinds.emplace(result.value("seconds", 0.0), result.value("seed", 0));
-    }
-    Experiment experiment = experiment_of(*scene, scene->settings);
-    for (const auto& [seconds, seed] : kinds) {
-      for (const SweepPoint& point : default_sweep(*scene)) {
-        experiment.settings = point.settings;
-        experiment.seed = seed;
-        experiment.load = point.load;
-        experiment.duration = seconds;
-        plan.push_back(experiment_id(experiment));
-      }
+  fs::create_directories(folder, error);
+  ResultsFile file;
+  if (!file.open(path, *results.scene())) return kBadInput;
+  for (const std::string& id : results.order()) {
+    if (!file.contains(id) && !file.append(id, Json::parse(results.line(id), nullptr, false))) {
+      return kBadInput;
     }
   }
+  const std::shared_ptr<const Scene>& scene = merged->scene;
+  const std::vector<std::string> plan =
+      scene ? plan_of(*scene, file.results()) : std::vector<std::string>();
   if (!file.finish(plan)) return kBadInput;
   if (!options.quiet) {
     std::printf("%zu runs from %zu parts\nresults  %s\n", file.size(), parts.size(),

@@ -9,13 +9,10 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
-#include <new>
 #include <optional>
-#include <set>
 #include <system_error>
 
 #include "app/cli/message.hpp"
@@ -41,15 +38,10 @@ bool same(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-std::timed_mutex g_mutex;  // protects all state of the outputs from end_outputs()
-
-/// The open outputs.
-std::set<Output*>& open_outputs() {
-  // Never destroyed, and allocated before memory runs out.
-  alignas(std::set<Output*>) static std::byte room[sizeof(std::set<Output*>)];
-  static auto* const outputs = new (room) std::set<Output*>;
-  return *outputs;
-}
+// The order of locking: g_commit, g_outputs, the mutex of an output.
+std::mutex g_commit;
+std::mutex g_outputs;       // of the list, and of creating temporary files
+Output* g_first = nullptr;  // open outputs
 
 /// The target of a path with all links resolved, even if the file does not exist.
 fs::path target_of(const std::string& path, std::error_code& error) {
@@ -65,7 +57,7 @@ fs::path target_of(const std::string& path, std::error_code& error) {
   return error ? fs::path() : fs::weakly_canonical(at, error);
 }
 
-/// An unused name next to the target: only within one folder is the rename atomic.
+/// A new name next to the target: only within one folder is the rename atomic.
 std::string beside(const fs::path& target) {
   constexpr std::size_t kLongest = 200;  // leaves room within the 255 bytes of a name
   static std::atomic<int> count{0};
@@ -94,30 +86,26 @@ bool same_output(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-Output::~Output() {
-  const std::lock_guard lock(g_mutex);
-  discard();
-}
+Output::~Output() { discard(); }
 
-bool Output::fail(int error) {
+bool Output::fail(int error) const {
   complain("%s: %s", path_.c_str(), std::strerror(error));
   return false;
 }
 
 bool Output::open(const std::string& path) {
-  const std::lock_guard lock(g_mutex);
   path_ = path;
   if (path.empty()) return true;
-  open_outputs().insert(this);
-  if (is_standard_output(path)) {
-    file_ = stdout;
-    return true;
-  }
   const auto found = about(path);
-  if (found && S_ISDIR(found->st_mode)) return fail(EISDIR);
-  if (!found || S_ISREG(found->st_mode)) return open_beside();
-  file_ = std::fopen(path.c_str(), "wb");
-  return file_ != nullptr || fail(errno);
+  const bool standard = is_standard_output(path);
+  if (!standard && found && S_ISDIR(found->st_mode)) return fail(EISDIR);
+  if (!standard && (!found || S_ISREG(found->st_mode))) return open_beside();
+  std::FILE* file = standard ? stdout : std::fopen(path.c_str(), "wb");
+  if (file == nullptr) return fail(errno);
+  const std::lock_guard lock(g_outputs);
+  file_ = file;
+  next_ = std::exchange(g_first, this);
+  return true;
 }
 
 bool Output::open_beside() {
@@ -128,38 +116,56 @@ bool Output::open_beside() {
   target_ = target.string();
   const auto old = about(target_);
   if (old && ::access(target_.c_str(), W_OK) != 0) return fail(errno);
-  temporary_ = beside(target);
-  const int descriptor =
-      ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    const int why = errno;
-    temporary_.clear();
-    return fail(why);
+  constexpr int kMostTries = 1000;  // names that a killed program with this process id has left
+  int why = EEXIST;
+  for (int i = 0; i < kMostTries && why == EEXIST; ++i) {
+    std::string name = beside(target);
+    const std::lock_guard lock(g_outputs);
+    const int descriptor =
+        ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    why = descriptor < 0 ? errno : 0;
+    if (descriptor < 0) continue;
+    temporary_.swap(name);
+    next_ = std::exchange(g_first, this);
+    if (old) ::fchmod(descriptor, old->st_mode & 07777U);
+    file_ = ::fdopen(descriptor, "wb");
+    if (file_ == nullptr) why = errno;
   }
-  if (old) ::fchmod(descriptor, old->st_mode & 07777U);
-  file_ = ::fdopen(descriptor, "wb");
-  return file_ != nullptr || fail(errno);
+  return why == 0 || fail(why);
 }
 
-void Output::write(const std::string& text) {
-  const std::lock_guard lock(g_mutex);
+void Output::put(const std::string& text) {
   if (!file_ || failed()) return;
   if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) error_ = errno;
 }
 
-void Output::keep_if_ended(const std::string& ending) {
-  const std::lock_guard lock(g_mutex);
-  ending_ = ending;
+void Output::write(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  put(text);
+}
+
+void Output::write_last(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  put(text);
+  ending_ = "";
+}
+
+void Output::keep_if_ended(std::string ending) {
+  const std::lock_guard lock(mutex_);
+  ending_ = std::move(ending);
 }
 
 bool Output::close() {
-  const std::lock_guard lock(g_mutex);
   if (!file_) return true;
   if (file_ == stdout) {
     discard();
     return flush_standard_output() && !failed();
   }
-  finish();
+  {
+    const auto committing = commit_if_beside();
+    const std::lock_guard lock(mutex_);
+    finish();
+  }
   discard();
   if (!failed()) return true;
   complain("%s: could not be written completely: %s", path_.c_str(), std::strerror(error_));
@@ -181,24 +187,47 @@ void Output::finish() {
 }
 
 void Output::discard() {
-  open_outputs().erase(this);
+  const auto committing = commit_if_beside();
+  {
+    const std::lock_guard lock(g_outputs);
+    Output** at = &g_first;
+    while (*at != nullptr && *at != this) at = &(*at)->next_;
+    if (*at == this) *at = next_;
+  }
   if (file_ && file_ != stdout) std::fclose(file_);
   file_ = nullptr;
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
 }
 
-void end_outputs(bool keep) {
+/// Not for a pipe, which may block: it has nothing to commit.
+std::unique_lock<std::mutex> Output::commit_if_beside() const {
+  return temporary_.empty() ? std::unique_lock<std::mutex>() : commit();
+}
+
+/// Part of end_outputs().
+void Output::end(bool keep) {
   constexpr std::chrono::milliseconds kWait{20};  // a write may block on a pipe indefinitely
-  const std::unique_lock lock(g_mutex, kWait);
-  if (!lock.owns_lock()) return;
-  while (!open_outputs().empty()) {
-    Output* output = *open_outputs().begin();
-    const bool kept = keep && output->ending_ && output->is_open() && !output->failed();
-    if (kept) std::fputs(output->ending_->c_str(), output->file_);
-    if (kept && output->file_ != stdout) output->finish();
-    output->discard();  // removes it from the open outputs
+  std::unique_lock lock(mutex_, std::defer_lock);
+  if (temporary_.empty()) {
+    if (!lock.try_lock_for(kWait)) return;
+  } else {
+    lock.lock();
   }
+  if (keep && ending_ && file_ && !failed()) {
+    if (std::fputs(ending_->c_str(), file_) < 0) error_ = errno;
+    if (file_ != stdout) finish();
+  }
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+std::unique_lock<std::mutex> commit() { return std::unique_lock(g_commit); }
+
+void end_outputs(bool keep) {
+  // They are not unlocked: the program ends, and other threads must not change files before.
+  g_commit.lock();
+  g_outputs.lock();
+  for (Output* output = g_first; output != nullptr; output = output->next_) output->end(keep);
   if (::ftrylockfile(stdout) != 0) return;
   std::fflush(stdout);
   ::funlockfile(stdout);

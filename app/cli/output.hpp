@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdio>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,7 +11,8 @@ namespace substep::cli {
 
 /// A result file, "-" for standard output; an empty path opens nothing. A file is written under a
 /// temporary name and renamed when it is closed successfully; until then, and on any error, the
-/// existing file is unchanged. Devices and pipes are written directly.
+/// existing file is unchanged. Devices and pipes are written directly. The temporary name has the
+/// process id and is never the name of something that exists.
 class Output {
  public:
   Output() = default;
@@ -21,10 +23,12 @@ class Output {
   /// @return false, with a message on stderr, if the file cannot be written
   bool open(const std::string& path);
   void write(const std::string& text);
+  /// Writes the end of the content: if end_outputs() ends the file now, it is complete.
+  void write_last(const std::string& text);
   /// Completes the file. @return false, with a message on stderr, if anything could not be written
   bool close();
   /// If end_outputs() ends the file, keep the content so far, followed by `ending`.
-  void keep_if_ended(const std::string& ending = "");
+  void keep_if_ended(std::string ending = "");
   [[nodiscard]] bool is_open() const { return file_ != nullptr; }
   /// Whether a write failed; close() reports it.
   [[nodiscard]] bool failed() const { return error_ != 0; }
@@ -32,20 +36,30 @@ class Output {
  private:
   friend void end_outputs(bool keep);
   bool open_beside();
-  bool fail(int error);
+  bool fail(int error) const;
+  void put(const std::string& text);
   void finish();
   void discard();
+  void end(bool keep);
+  [[nodiscard]] std::unique_lock<std::mutex> commit_if_beside() const;
 
-  std::string path_;       // as given
-  std::string target_;     // with links resolved
-  std::string temporary_;  // empty: written directly
+  std::string path_;        // as given
+  std::string target_;      // with links resolved
+  std::string temporary_;   // empty: written directly
+  Output* next_ = nullptr;  // in the list of open outputs
+  std::timed_mutex mutex_;  // of the members below
   std::FILE* file_ = nullptr;
   int error_ = 0;  // errno of the first failed write
   std::optional<std::string> ending_;
 };
 
-/// Ends all open files from another thread, before the program exits. Keeps those with
-/// keep_if_ended() if `keep`, and removes the others. Waits 20 ms at most, and does not allocate.
+/// Held while a file is replaced or appended to: end_outputs() waits for its end. The holder must
+/// not allocate, as end_outputs() is also called when there is no memory.
+std::unique_lock<std::mutex> commit();
+
+/// Ends all open files from another thread, before the program exits. Waits for a commit() in
+/// progress, and no other begins afterwards. Keeps the files with keep_if_ended() if `keep`, and
+/// removes the others. A write that is blocked by a pipe is left after 20 ms. Does not allocate.
 void end_outputs(bool keep);
 
 /// Writes a whole file by means of Output.

@@ -96,7 +96,7 @@ int run(const ReproduceOptions& options) {
   }
   progress.clear();
   if (cancel_on_signal()) {
-    complain("cancelled; nothing was written");
+    say_cancelled("; nothing was written");
     return kCancelled;
   }
   bool all = true;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "app/cli/results_text.hpp"
 #include "core/io/json.hpp"
 
 namespace substep::cli {
@@ -22,11 +22,12 @@ class ResultsFile {
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;
 
-  /// Opens or creates the file and reads its results. @return false, with a message on stderr, if
-  /// it is not a results file, damaged, in use or not writable; it is then unchanged
-  bool open(const std::string& path);
+  /// Opens or creates the file and reads its results, all of this scene. @return false, with a
+  /// message on stderr, if it is not a results file, damaged, of another scene, in use or not
+  /// writable; it is then unchanged
+  bool open(const std::string& path, const ResultsScene& scene);
   /// Whether there is a result for the experiment of that id.
-  [[nodiscard]] bool contains(const std::string& id) const { return lines_.contains(id); }
+  [[nodiscard]] bool contains(const std::string& id) const { return results_.contains(id); }
   /// Appends a result; thread-safe. @return false, with a message, if it could not be written; the
   /// file then ends with the previous result
   bool append(const std::string& id, const Json& result);
@@ -34,25 +35,20 @@ class ResultsFile {
   /// The old file is replaced only by a complete new one.
   bool finish(const std::vector<std::string>& order);
 
-  [[nodiscard]] std::size_t size() const { return order_.size(); }
+  [[nodiscard]] std::size_t size() const { return results_.order().size(); }
   /// In file order.
   [[nodiscard]] std::vector<Json> results() const;
 
  private:
   bool take_lock();
+  bool load(std::string& text);
   bool read();
   bool write(const std::string& text);
 
   std::string path_;
   int descriptor_ = -1;
   std::mutex mutex_;
-  std::map<std::string, std::string> lines_;  // by id, without line feed
-  std::vector<std::string> order_;            // ids
+  StoredResults results_;
 };
-
-/// Reads the lines of a results file into id -> line. @return false, with messages on stderr giving
-/// file and line, if one is invalid
-bool read_results(const std::string& path, const std::string& text,
-                  std::map<std::string, std::string>& lines, std::vector<std::string>& order);
 
 }  // namespace substep::cli

@@ -21,6 +21,7 @@
 #include "core/lab/metrics.hpp"
 #include "core/lab/remedy.hpp"
 #include "core/lab/start_text.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/number_text.hpp"
 #include "core/sim/simulator.hpp"
 
@@ -127,7 +128,7 @@ int run(const RunOptions& options) {
   progress.clear();
   if (!outputs.end(simulator, measure)) return kBadInput;
   if (cancelled) {
-    complain("cancelled at %.3f s; the completed frames are kept", simulator.state().time);
+    say_cancelled(format_text(" at %.3f s; the completed frames are kept", simulator.state().time));
     return kCancelled;
   }
 
@@ -140,18 +141,6 @@ int run(const RunOptions& options) {
   }
   std::fprintf(words, "%s\n", verdict.text().c_str());
   return verdict.stopped() ? kNotFinite : kOk;
-}
-
-/// Each experiment has its own settings: flags for all of them would be ignored.
-void refuse_beside_experiments(const CLI::App& command, const RunOptions& options) {
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() == 0 || name == "--experiments" || name == "scene") continue;
-    throw CLI::ExcludesError(name, "--experiments");
-  }
-  if (options.scene == "-" && options.experiments == "-") {
-    throw CLI::ValidationError("--experiments", "standard input is already used by the scene");
-  }
 }
 
 }  // namespace
@@ -187,7 +176,10 @@ void add_run(CLI::App& app, int& exit_code) {
       "bridge.jsonl");
   command->callback([options, command, &exit_code] {
     if (!options->experiments.empty()) {
-      refuse_beside_experiments(*command, *options);
+      refuse_beside(*command, "--experiments", {"scene"});  // each has its own settings
+      if (options->scene == "-" && options->experiments == "-") {
+        throw CLI::ValidationError("--experiments", "standard input is already used by the scene");
+      }
       exit_code = run_experiments(options->experiments, options->scene);
       return;
     }

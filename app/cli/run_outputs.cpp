@@ -126,7 +126,7 @@ bool RunOutputs::failed() const {
 
 bool RunOutputs::end(const Simulator& simulator, const Measure& measure) {
   if (json_.is_open()) {
-    json_.write(json_tail(measure.metrics(simulator.scene(), simulator.state())));
+    json_.write_last(json_tail(measure.metrics(simulator.scene(), simulator.state())));
   }
   const bool csv = csv_.close();
   const bool json = json_.close();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/cli/all_methods.hpp"
+#include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/flags.hpp"
 #include "app/cli/message.hpp"
@@ -116,16 +117,6 @@ int ship(const SweepOptions& options) {
   return write_file(options.ship, text) ? kOk : kBadInput;
 }
 
-/// The physical content of the scene as text. Settings and duration are in the results.
-std::string moving_part(Scene scene) {
-  scene.title = scene.group = scene.description = scene.look_for = "";
-  scene.settings = {};
-  scene.recommended.reset();
-  scene.verdicts = {};
-  scene.camera = {};
-  return write_scene(scene);
-}
-
 /// Saves the scene of a sweep beside its results, as scene.json, so that results of different
 /// scenes with one name do not mix. @return false, with a message on stderr, if another scene is
 /// there, or it cannot be written
@@ -134,9 +125,20 @@ bool keep_scene(const fs::path& folder, const Scene& scene) {
   std::error_code error;
   if (!fs::exists(path, error)) return write_file(path, write_scene(scene));
   const SceneResult kept = read_scene_file(path);
-  if (kept.scene && moving_part(*kept.scene) == moving_part(scene)) return true;
-  complain("%s: the results in this folder are of another scene of this name; choose another --out",
-           path.c_str());
+  for (const Problem& problem : kept.problems) {
+    complain("%s: %s", path.c_str(), to_string(problem).c_str());
+  }
+  if (!kept.scene) {
+    complain(
+        "%s: damaged: the scene of the results in this folder is not known; choose another "
+        "--out",
+        path.c_str());
+    return false;
+  }
+  if (kept.scene->name == scene.name && scene_hash(*kept.scene) == scene_hash(scene)) return true;
+  const char* which =
+      kept.scene->name == scene.name ? "another scene of this name" : "another scene";
+  complain("%s: the results in this folder are of %s; choose another --out", path.c_str(), which);
   return false;
 }
 
@@ -164,7 +166,8 @@ int sweep(const SweepOptions& options, const Shard& shard) {
                                             : "results." + std::to_string(shard.index) + "-of-" +
                                                   std::to_string(shard.count) + ".jsonl";
   ResultsFile file;
-  if (!keep_scene(folder, *scene) || !file.open((folder / name).string())) return kBadInput;
+  const ResultsScene key{scene->name, scene_hash(*scene), "the scene of this sweep"};
+  if (!keep_scene(folder, *scene) || !file.open((folder / name).string(), key)) return kBadInput;
 
   ParallelSweep parallel;
   parallel.scene = scene;
@@ -201,8 +204,8 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   progress.clear();
   if (!written) return kBadInput;
   if (!complete) {
-    complain("cancelled: %zu of %zu runs are in %s; the same command continues from there",
-             known + runs, all.size(), (folder / name).string().c_str());
+    say_cancelled(format_text(": %zu of %zu runs are in %s; the same command continues from there",
+                              known + runs, all.size(), (folder / name).string().c_str()));
     return kCancelled;
   }
   if (!file.finish(order)) return kBadInput;
@@ -222,8 +225,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("sweep", "Run all methods on a scene: error against cost");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
       ->required();
-  auto* out = command->add_option("--out", options->out, "folder for results.jsonl and report.html")
-                  ->check(named());
+  command->add_option("--out", options->out, "folder for results.jsonl and report.html")
+      ->check(named());
   command->add_option("--jobs", options->jobs, "threads")->check(whole(1, 1024));
   command
       ->add_option("--seeds", options->seeds,
@@ -234,29 +237,34 @@ void add_sweep(CLI::App& app, int& exit_code) {
       ->check([](const std::string& text) -> std::string {
         return parse_shard(text) ? "" : must_be("i/n with 1 <= i <= n", text);
       });
-  command
-      ->add_flag("--list", options->list,
-                 "print the experiments, one JSON object per line, and run none")
-      ->excludes(out);
+  command->add_flag("--list", options->list,
+                    "print the experiments, one JSON object per line, and run none");
   command
       ->add_option("--ship", options->ship,
                    "write the shipped sweep, which the application shows before it runs anything: "
                    "scenes/sweeps/SCENE.txt")
-      ->check(named())
-      ->excludes(out);
+      ->check(named());
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
   options->length.add_to(*command);
-  options->settings.add_to(*command);
+  options->settings.add_to(*command, swept_settings(),
+                           "is no flag of sweep, which runs every method along its parameters");
   command->footer(
       "Completed runs are not repeated: a stopped sweep continues.\n"
       "Examples:\n"
       "  substep sweep swinging_box\n"
       "  substep sweep bridge --seconds 2 --iterations 50 --out bridge_50\n"
       "  parallel substep sweep bridge --out b --jobs 1 --shard {}/4 ::: 1 2 3 4; substep merge b");
-  command->callback([options, &exit_code] {
-    exit_code = options->ship.empty()
-                    ? sweep(*options, parse_shard(options->shard).value_or(Shard{}))
-                    : ship(*options);
+  command->callback([options, command, &exit_code] {
+    if (!options->ship.empty()) {
+      refuse_beside(*command, "--ship", {"scene", "--jobs"});
+      keep_apart({{"--ship", options->ship}}, {scene_path(options->scene)});
+      exit_code = ship(*options);
+      return;
+    }
+    for (const char* flag : {"--out", "--jobs"}) {
+      if (options->list && command->count(flag) > 0) throw CLI::ExcludesError(flag, "--list");
+    }
+    exit_code = sweep(*options, parse_shard(options->shard).value_or(Shard{}));
   });
 }
 

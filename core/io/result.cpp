@@ -127,19 +127,4 @@ Json result_json(const Result& result) {
   return json;
 }
 
-std::optional<std::string> result_id(const Json& line, Problems& problems) {
-  const std::size_t before = problems.size();
-  ObjectReader in(line, "", problems);
-  std::string id;
-  in.text("id", 16, id, kRequired);
-  if (in.is_object()) {
-    for (const char* part : {"settings", "errors", "work", "timing"}) {
-      const Json* json = in.member(part, kRequired);
-      if (json && !json->is_object()) in.problem(part, must_be("an object", value_text(*json)));
-    }
-  }
-  if (problems.size() != before) return std::nullopt;
-  return id;
-}
-
 }  // namespace substep

@@ -2,7 +2,6 @@
 // Results files: one JSON object a line (core/io/result.schema.json). The first line identifies the
 // file; every further line is one experiment with errors, work and times.
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -29,8 +28,5 @@ Json timing_json(const Timing& timing);
 
 /// Work and times of a run by stage and row kind, and the cost of each effect per frame.
 Json costs_json(const CostBreakdown& costs);
-
-/// The id of a valid result line; otherwise adds problems.
-std::optional<std::string> result_id(const Json& line, Problems& problems);
 
 }  // namespace substep

@@ -145,6 +145,28 @@ void append_map(const Settings& base, std::vector<SweepPoint>& points) {
   }
 }
 
+// Those that base_of() resets, and that the curves set.
+constexpr std::string_view kSwept[] = {
+    "solver",
+    "share_iterations",
+    "refinements",
+    "forces",
+    "mode",
+    "n",
+    "policy",
+    "hold",
+    "redo",
+    "integrator",
+    "gyroscopic",
+    "drift",
+    "drift_order",
+    "detection",
+    "contact_stiffness",
+    "islands",
+    "sleep",
+    "watch_stiffness",
+};
+
 /// The scene's own settings, with those that have their own curves reset.
 Settings base_of(const Scene& scene) {
   Settings base = own_settings(scene);
@@ -165,6 +187,8 @@ Settings base_of(const Scene& scene) {
 }
 
 }  // namespace
+
+std::span<const std::string_view> swept_settings() { return kSwept; }
 
 std::span<const double> map_alphas() { return kMapAlpha; }
 

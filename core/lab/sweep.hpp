@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/lab/experiment_run.hpp"
@@ -21,6 +22,10 @@ struct SweepPoint {
 /// along its own parameter; and, for the map of stability, constant N and adaptive under other
 /// loads if the scene has different masses. Other settings are the scene's own.
 std::vector<SweepPoint> default_sweep(const Scene& scene);
+
+/// The settings that default_sweep() gives every run itself, by their names in setting_fields():
+/// their values in the scene have no effect on it.
+std::span<const std::string_view> swept_settings();
 
 /// Adds the default settings along alpha. They combine what default_sweep() varies one by one.
 void append_defaults(std::vector<SweepPoint>& points);

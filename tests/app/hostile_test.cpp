@@ -166,13 +166,15 @@ TEST(Hostile, MessagesHaveNoControlCharacters) {
   }
 }
 
-/// Runs a command and sends it a signal after a delay. @return its outcome, and the time from the
+/// Runs a command and sends it a signal after a delay; with job control, without which the shell
+/// starts it with SIGINT ignored. @return its outcome, and the time from the
 /// signal to its end [s]
 std::pair<Outcome, double> interrupted_once(const std::string& command, const char* signal) {
   const fs::path took = folder() / "took";
   const Outcome run = substep(
       command,
-      "bash -c '\"$@\" & pid=$!; sleep 0.7; begin=$(date +%s%N); kill -" + std::string(signal) +
+      "bash -c 'set -m; \"$@\" & pid=$!; sleep 0.7; begin=$(date +%s%N); kill -" +
+          std::string(signal) +
           " $pid; wait $pid; code=$?; echo $(( $(date +%s%N) - begin )) >\"$0\"; exit $code' \"" +
           took.string() + "\"");
   return {run, 1e-9 * std::stod(text_of(took))};
@@ -190,6 +192,8 @@ std::pair<Outcome, double> interrupted(const std::string& command, const char* s
   return soonest;
 }
 
+constexpr std::pair<const char*, int> kSignals[] = {{"INT", 130}, {"TERM", 143}, {"HUP", 129}};
+
 TEST(Hostile, InterruptedItEndsAtOnceWithTheFinishedResults) {
   const fs::path at = fresh();
   const std::string csv = (at / "run.csv").string();
@@ -201,9 +205,9 @@ TEST(Hostile, InterruptedItEndsAtOnceWithTheFinishedResults) {
         "run --experiments " + (at / "list").string(), std::string("check --all --json"),
         "map --out " + table, std::string("hash bridge --seconds 86400"),
         std::string("cost bridge --seconds 86400"), "exam --json " + (at / "exam.json").string()}) {
-    for (const char* signal : {"INT", "TERM"}) {
+    for (const auto& [signal, code] : kSignals) {
       const auto [run, seconds] = interrupted(command, signal);
-      EXPECT_EQ(run.exit_code, 130) << command << " " << signal << run.err;
+      EXPECT_EQ(run.exit_code, code) << command << " " << signal << run.err;
       EXPECT_NE(run.err.find("cancelled"), std::string::npos) << command << run.err;
       EXPECT_LT(seconds, kSoon) << command;
     }
@@ -223,13 +227,13 @@ TEST(Hostile, InterruptedInALongFrameItEndsAtOnce) {
   const fs::path at = fresh();
   const std::string csv = (at / "run.csv").string();
   const std::string json = (at / "run.json").string();
-  for (const char* signal : {"INT", "TERM"}) {
+  for (const auto& [signal, code] : kSignals) {
     const auto [run, seconds] = interrupted(
         "run bridge --solver pgs --iterations 100000 --mode const --n 10000 --work-budget 1e15 "
         "--csv " +
             csv + " --json " + json,
         signal);
-    EXPECT_EQ(run.exit_code, 130) << run.err;
+    EXPECT_EQ(run.exit_code, code) << run.err;
     EXPECT_LT(seconds, kSoon);
   }
   EXPECT_EQ(lines_of(text_of(csv)).size(), 1U) << "the header";

@@ -134,7 +134,7 @@ TEST(SweepCommand, InterruptedItReportsThatAndContinues) {
   const fs::path out = fresh("interrupted");
   const Outcome run = substep("sweep swinging_box --seconds 5 --jobs 2 --out " + out.string(),
                               signalled("TERM", out / "results.jsonl", 2));
-  EXPECT_EQ(run.exit_code, 130);
+  EXPECT_EQ(run.exit_code, 143);
   EXPECT_NE(run.err.find("cancelled"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("continues from there"), std::string::npos);
 }

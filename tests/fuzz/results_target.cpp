@@ -1,14 +1,11 @@
 // A text as a results file, and each of its lines as an experiment to repeat.
 
-#include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "app/cli/results_file.hpp"
+#include "app/cli/results_text.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/json_text.hpp"
-#include "core/io/result.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -16,18 +13,12 @@ namespace substep::fuzz {
 namespace {
 
 void read_file(const std::string& text) {
-  std::map<std::string, std::string> lines;
-  std::vector<std::string> order;
-  if (!cli::read_results("input", text, lines, order)) return;
-  require(lines.size() == order.size(), "every result has a place in the order");
+  cli::StoredResults results;
+  if (!results.read("input", text)) return;
   // The results are written as `sweep` does and read again.
-  std::string file = results_header();
-  for (const std::string& id : order) file += lines.at(id) + '\n';
-  std::map<std::string, std::string> lines_again;
-  std::vector<std::string> order_again;
-  require(cli::read_results("output", file, lines_again, order_again),
-          "a written file can be read");
-  require(lines_again == lines && order_again == order, "a written file has the same results");
+  cli::StoredResults again;
+  require(again.read("output", results.text()), "a written file can be read");
+  require(again == results, "a written file has the same results");
 }
 
 void read_experiments(const std::string& text) {

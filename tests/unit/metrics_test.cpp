@@ -6,6 +6,7 @@
 
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
+#include "core/io/result_reader.hpp"
 #include "core/lab/experiment_run.hpp"
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -56,7 +57,8 @@ TEST(Metrics, AFailedRunEndsThereAndHasNoTrajectoryError) {
   const Json json = result_json(run.result());
   EXPECT_EQ(json["holds"], false);
   Problems problems;
-  EXPECT_EQ(result_id(json, problems), experiment_id(run.experiment()));
+  EXPECT_EQ(read_result(json, problems), run.experiment());
+  EXPECT_EQ(problems.size(), 0U);
 }
 
 Work work_of(const Scene& scene, const Settings& settings, double seconds) {

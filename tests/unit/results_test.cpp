@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <memory>
+#include <set>
 
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
+#include "core/io/result_reader.hpp"
+#include "core/lab/sweep.hpp"
+#include "core/model/setting_fields.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/unit/scene_schema_validator.hpp"
@@ -40,6 +46,120 @@ TEST(Results, LinesConformToTheirSchema) {
     EXPECT_EQ(schema_errors(schema, schema, line), std::vector<std::string>{}) << line.dump();
     line["colour"] = "red";
     EXPECT_FALSE(schema_errors(schema, schema, line).empty());
+  }
+}
+
+/// The line of a run of half a second.
+Json line_of(const Scene& scene, const Settings& settings) {
+  Experiment experiment = experiment_of(scene, settings);
+  experiment.duration = 0.5;
+  const Reference reference = find_reference(std::make_shared<const Scene>(scene), 0.1);
+  ExperimentRun run(scene, experiment, reference);
+  while (run.advance()) {
+  }
+  return Json::parse(result_json(run.result()).dump());
+}
+
+std::size_t problems_of(const Json& line) {
+  Problems problems;
+  const bool read = read_result(line, problems).has_value();
+  EXPECT_EQ(read, problems.empty());
+  return problems.size();
+}
+
+/// Pointers to all values of a line, objects too.
+std::vector<Json::json_pointer> places_in(const Json& json, const Json::json_pointer& here) {
+  std::vector<Json::json_pointer> all;
+  for (const auto& item : json.items()) {
+    all.push_back(here / item.key());
+    if (!item.value().is_object()) continue;
+    const auto inner = places_in(item.value(), all.back());
+    all.insert(all.end(), inner.begin(), inner.end());
+  }
+  return all;
+}
+
+TEST(Results, ForgedFieldsAreRefused) {
+  const Json schema = result_schema();
+  Settings none;
+  none.mode = Mode::kNone;
+  int forgeries = 0;
+  for (const Json& line :
+       {line_of(scenes::swinging_box(), Settings{}), line_of(scenes::swinging_box(), none),
+        line_of(scenes::heavy_stack(), Settings{})}) {
+    ASSERT_EQ(problems_of(line), 0U);
+    for (const Json::json_pointer& place : places_in(line, Json::json_pointer())) {
+      const std::string pointer = place.to_string();
+      const std::string top = pointer.substr(1, pointer.find('/', 1) - 1);
+      // All of these determine the id, or follow from the settings.
+      const bool bound = Json({"id", "scene", "scene_hash", "settings", "seconds", "load", "seed",
+                               "series", "parameter", "holds"})
+                             .get<std::set<std::string>>()
+                             .contains(top);
+      for (const Json& value : {Json("x"), Json(-1), Json(-1.5), Json(1.5), Json(1e300), Json(true),
+                                Json(false), Json(nullptr), Json::array(), Json::object()}) {
+        if (value == line.at(place)) continue;
+        if (pointer == "/settings" && value.is_object()) continue;  // the paper's
+        Json forged = line;
+        forged[place] = value;
+        if (!bound && schema_errors(schema, schema, forged).empty()) continue;
+        EXPECT_GT(problems_of(forged), 0U) << pointer << ": " << value.dump();
+        ++forgeries;
+      }
+      Json forged = line;
+      forged.at(place.parent_pointer()).erase(place.back());
+      if (!schema_errors(schema, schema, forged).empty()) {
+        EXPECT_GT(problems_of(forged), 0U) << "without " << pointer;
+      }
+      if (!line.at(place).is_object()) continue;
+      forged = line;
+      forged[place / "colour"] = "red";
+      EXPECT_GT(problems_of(forged), 0U) << pointer;
+    }
+  }
+  EXPECT_GT(forgeries, 1000);
+}
+
+TEST(Results, AnErrorThatIsNotFiniteIsNullInAFailedRunOnly) {
+  Settings none;
+  none.mode = Mode::kNone;
+  Json failed = line_of(scenes::swinging_box(), none);
+  ASSERT_FALSE(failed["holds"]);
+  failed["errors"]["energy_drift_peak"] = nullptr;
+  EXPECT_EQ(problems_of(failed), 0U);
+  Json held = line_of(scenes::swinging_box(), Settings{});
+  held["errors"]["energy_drift_peak"] = nullptr;
+  EXPECT_EQ(problems_of(held), 1U);
+}
+
+// The command line refuses them.
+TEST(Results, SweptSettingsOfTheSceneHaveNoEffectOnASweepAndTheOthersHave) {
+  const auto swept = swept_settings();
+  for (const SettingField& field : setting_fields()) {
+    bool acts = false;
+    for (Scene scene : {scenes::swinging_box(), scenes::heavy_stack(), scenes::spinning_top()}) {
+      scene.settings = Settings{};
+      scene.recommended.reset();
+      const std::vector<SweepPoint> plain = default_sweep(scene);
+      const std::string now = setting_text(field, scene.settings);
+      for (const char* value :
+           {"true",    "false",  "1",        "3",        "0.25",     "1e-5", "pgs",      "bpp",
+            "xpbd",    "newton", "end",      "mean",     "const",    "none", "adaptive", "frame",
+            "substep", "euler",  "leapfrog", "implicit", "explicit", "auto", "soft",     "full",
+            "paper",   "exact",  "box",      "pyramid",  "cone"}) {
+        Scene other = scene;
+        if (value == now || set_setting(field, value, other.settings)) continue;
+        const std::vector<SweepPoint> points = default_sweep(other);
+        acts = acts || points.size() != plain.size() ||
+               !std::equal(points.begin(), points.end(), plain.begin(),
+                           [](const SweepPoint& a, const SweepPoint& b) {
+                             return a.settings == b.settings && a.load == b.load;
+                           });
+      }
+    }
+    const bool is_swept = std::find(swept.begin(), swept.end(), field.name) != swept.end();
+    // N is read by the modes that a sweep gives their own N only.
+    EXPECT_TRUE(acts != is_swept || field.name == "n") << field.name;
   }
 }
 

@@ -11,13 +11,18 @@ bool has_type(const Json& value, const std::string& type) {
   if (type == "array") return value.is_array();
   if (type == "string") return value.is_string();
   if (type == "boolean") return value.is_boolean();
+  if (type == "null") return value.is_null();
   if (type == "number") return value.is_number();
   return type == "integer" && value.is_number_integer();
 }
 
 /// Whether a value satisfies one keyword of its schema, except for keywords that descend into it.
 bool keeps(const std::string& keyword, const Json& rule, const Json& value) {
-  if (keyword == "type") return has_type(value, rule.get<std::string>());
+  if (keyword == "type") {
+    const Json types = rule.is_array() ? rule : Json::array({rule});
+    return std::any_of(types.begin(), types.end(),
+                       [&](const Json& type) { return has_type(value, type.get<std::string>()); });
+  }
   if (keyword == "const") return value == rule;
   if (keyword == "enum") return std::find(rule.begin(), rule.end(), value) != rule.end();
   if (keyword == "minimum") return !value.is_number() || value >= rule;
@@ -29,7 +34,8 @@ bool keeps(const std::string& keyword, const Json& rule, const Json& value) {
   if (keyword == "minLength") return !value.is_string() || value.get<std::string>().size() >= rule;
   if (keyword == "maxLength") return !value.is_string() || value.get<std::string>().size() <= rule;
   if (keyword == "pattern") {
-    return std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>()));
+    return !value.is_string() ||
+           std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>()));
   }
   if (keyword == "uniqueItems") {
     for (std::size_t i = 0; i < value.size(); ++i) {

@@ -21,6 +21,8 @@ namespace {
 // Long enough for a command that checks the flag after every frame, short enough for the user.
 constexpr std::chrono::milliseconds kPatience{120};
 constexpr std::chrono::milliseconds kSlice{10};
+// Standard error may be a blocked pipe. Long enough for the command to print its message.
+constexpr std::chrono::seconds kBlocked{1};
 
 std::atomic<bool> g_cancelled{false};
 std::atomic<int> g_signal{0};  // the first
@@ -44,7 +46,7 @@ void end_when_signalled() {
     std::this_thread::sleep_for(kSlice);
   }
   end_outputs(true);
-  const std::unique_lock lock(g_saying, kSlice);  // standard error may be a blocked pipe
+  const std::unique_lock lock(g_saying, kBlocked);
   if (lock.owns_lock() && !g_said) {
     constexpr std::string_view kText = "cancelled\n";
     [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, kText.data(), kText.size());

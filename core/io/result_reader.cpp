@@ -26,7 +26,7 @@ enum class Type {
 
 /// A field of a result.
 struct Field {
-  std::string_view part;  // pointer to its object
+  std::string_view part;  // path to its object
   std::string_view name;
   Type type = Type::kNumber;
   Range range{};  // of numbers and counts
@@ -59,63 +59,63 @@ constexpr Field kFields[] = {
     {"", "reference", Type::kObject},
     {"", "work", Type::kObject},
     {"", "timing", Type::kObject},
-    {"/parameter", "name", Type::kText},
-    {"/parameter", "value", Type::kNumber, kNotNegative},
-    {"/errors", "trajectory_peak", Type::kError, kNotNegative, kOptional},
-    {"/errors", "trajectory_final", Type::kError, kNotNegative, kOptional},
-    {"/errors", "constraint", Type::kObject, kAny, kOptional},
-    {"/errors", "joint_gap", Type::kObject, kAny, kOptional},
-    {"/errors", "penetration", Type::kObject, kAny, kOptional},
-    {"/errors", "energy_drift", Type::kError, kAny},
-    {"/errors", "energy_drift_peak", Type::kError, kNotNegative},
-    {"/errors", "energy_drift_percent", Type::kError, kAny, kOptional},
-    {"/errors", "linear_momentum_drift", Type::kError, kNotNegative, kOptional},
-    {"/errors", "angular_momentum_drift", Type::kError, kNotNegative, kOptional},
-    {"/errors", "lcp_residual", Type::kError, kNotNegative},
-    {"/errors/constraint", "peak", Type::kError, kNotNegative},
-    {"/errors/constraint", "median", Type::kError, kNotNegative},
-    {"/errors/joint_gap", "peak", Type::kError, kNotNegative},
-    {"/errors/joint_gap", "median", Type::kError, kNotNegative},
-    {"/errors/penetration", "peak", Type::kError, kNotNegative},
-    {"/errors/penetration", "median", Type::kError, kNotNegative},
-    {"/reference", "source", Type::kText},
-    {"/reference", "uncertainty", Type::kNumber, kNotNegative},
-    {"/reference", "window", Type::kNumber, kNotNegative},
-    {"/reference", "energy_scale", Type::kNumber, kNotNegative},
-    {"/reference", "energy_scale_source", Type::kText},
-    {"/work", "frames", Type::kCount, kAnyCount},
-    {"/work", "substeps", Type::kCount, kAnyCount},
-    {"/work", "solves", Type::kCount, kAnyCount},
-    {"/work", "row_updates", Type::kCount, kAnyCount},
-    {"/work", "factorisations", Type::kCount, kAnyCount},
-    {"/work", "pivots", Type::kCount, kAnyCount},
-    {"/work", "unsettled", Type::kCount, kAnyCount},
-    {"/work", "unsolved", Type::kCount, kAnyCount},
-    {"/work", "flops", Type::kCount, kAnyCount},
-    {"/work", "n_min", Type::kCount, kSubsteps},
-    {"/work", "n_median", Type::kCount, kSubsteps},
-    {"/work", "n_max", Type::kCount, kSubsteps},
+    {"parameter", "name", Type::kText},
+    {"parameter", "value", Type::kNumber, kNotNegative},
+    {"errors", "trajectory_peak", Type::kError, kNotNegative, kOptional},
+    {"errors", "trajectory_final", Type::kError, kNotNegative, kOptional},
+    {"errors", "constraint", Type::kObject, kAny, kOptional},
+    {"errors", "joint_gap", Type::kObject, kAny, kOptional},
+    {"errors", "penetration", Type::kObject, kAny, kOptional},
+    {"errors", "energy_drift", Type::kError, kAny},
+    {"errors", "energy_drift_peak", Type::kError, kNotNegative},
+    {"errors", "energy_drift_percent", Type::kError, kAny, kOptional},
+    {"errors", "linear_momentum_drift", Type::kError, kNotNegative, kOptional},
+    {"errors", "angular_momentum_drift", Type::kError, kNotNegative, kOptional},
+    {"errors", "lcp_residual", Type::kError, kNotNegative},
+    {"errors/constraint", "peak", Type::kError, kNotNegative},
+    {"errors/constraint", "median", Type::kError, kNotNegative},
+    {"errors/joint_gap", "peak", Type::kError, kNotNegative},
+    {"errors/joint_gap", "median", Type::kError, kNotNegative},
+    {"errors/penetration", "peak", Type::kError, kNotNegative},
+    {"errors/penetration", "median", Type::kError, kNotNegative},
+    {"reference", "source", Type::kText},
+    {"reference", "uncertainty", Type::kNumber, kNotNegative},
+    {"reference", "window", Type::kNumber, kNotNegative},
+    {"reference", "energy_scale", Type::kNumber, kNotNegative},
+    {"reference", "energy_scale_source", Type::kText},
+    {"work", "frames", Type::kCount, kAnyCount},
+    {"work", "substeps", Type::kCount, kAnyCount},
+    {"work", "solves", Type::kCount, kAnyCount},
+    {"work", "row_updates", Type::kCount, kAnyCount},
+    {"work", "factorisations", Type::kCount, kAnyCount},
+    {"work", "pivots", Type::kCount, kAnyCount},
+    {"work", "unsettled", Type::kCount, kAnyCount},
+    {"work", "unsolved", Type::kCount, kAnyCount},
+    {"work", "flops", Type::kCount, kAnyCount},
+    {"work", "n_min", Type::kCount, kSubsteps},
+    {"work", "n_median", Type::kCount, kSubsteps},
+    {"work", "n_max", Type::kCount, kSubsteps},
     // Files of older versions lack these.
-    {"/work", "visits", Type::kCount, kAnyCount, kOptional},
-    {"/work", "rows", Type::kObject, kAny, kOptional},
-    {"/work", "criterion", Type::kObject, kAny, kOptional},
-    {"/work/rows", "joint", Type::kCount, kAnyCount},
-    {"/work/rows", "contact", Type::kCount, kAnyCount},
-    {"/work/rows", "friction", Type::kCount, kAnyCount},
-    {"/work/criterion", "evaluations", Type::kCount, kAnyCount},
-    {"/work/criterion", "flops", Type::kCount, kAnyCount},
-    {"/timing", "ms_median", Type::kNumber, kNotNegative},
-    {"/timing", "ms_p95", Type::kNumber, kNotNegative},
-    {"/timing", "real_time_factor", Type::kNumber, kNotNegative},
-    {"/timing", "stages", Type::kObject},
-    {"/timing/stages", "joints", Type::kNumber, kNotNegative},
-    {"/timing/stages", "contact", Type::kNumber, kNotNegative},
-    {"/timing/stages", "friction", Type::kNumber, kNotNegative},
-    {"/timing/stages", "mass", Type::kNumber, kNotNegative},
-    {"/timing/stages", "solve", Type::kNumber, kNotNegative},
-    {"/timing/stages", "stiffness", Type::kNumber, kNotNegative},
-    {"/timing/stages", "integrate", Type::kNumber, kNotNegative},
-    {"/timing/stages", "total", Type::kNumber, kNotNegative},
+    {"work", "visits", Type::kCount, kAnyCount, kOptional},
+    {"work", "rows", Type::kObject, kAny, kOptional},
+    {"work", "criterion", Type::kObject, kAny, kOptional},
+    {"work/rows", "joint", Type::kCount, kAnyCount},
+    {"work/rows", "contact", Type::kCount, kAnyCount},
+    {"work/rows", "friction", Type::kCount, kAnyCount},
+    {"work/criterion", "evaluations", Type::kCount, kAnyCount},
+    {"work/criterion", "flops", Type::kCount, kAnyCount},
+    {"timing", "ms_median", Type::kNumber, kNotNegative},
+    {"timing", "ms_p95", Type::kNumber, kNotNegative},
+    {"timing", "real_time_factor", Type::kNumber, kNotNegative},
+    {"timing", "stages", Type::kObject},
+    {"timing/stages", "joints", Type::kNumber, kNotNegative},
+    {"timing/stages", "contact", Type::kNumber, kNotNegative},
+    {"timing/stages", "friction", Type::kNumber, kNotNegative},
+    {"timing/stages", "mass", Type::kNumber, kNotNegative},
+    {"timing/stages", "solve", Type::kNumber, kNotNegative},
+    {"timing/stages", "stiffness", Type::kNumber, kNotNegative},
+    {"timing/stages", "integrate", Type::kNumber, kNotNegative},
+    {"timing/stages", "total", Type::kNumber, kNotNegative},
 };
 
 constexpr std::size_t kLongestText = 4 * kMaxProse;  // [bytes]
@@ -163,7 +163,7 @@ void check(const Field& field, bool failed, ObjectReader& in) {
 void check_fields(const Json& line, Problems& problems) {
   const bool failed = line.is_object() && line.contains("holds") && line["holds"] == false;
   const auto check_part = [&](std::string_view part, const Json& json) {
-    ObjectReader in(json, std::string(part), problems);
+    ObjectReader in(json, part.empty() ? "" : '/' + std::string(part), problems);
     for (const Field& field : kFields) {
       if (field.part == part) check(field, failed, in);
     }
@@ -172,10 +172,11 @@ void check_fields(const Json& line, Problems& problems) {
   check_part("", line);
   if (!problems.empty()) return;
   for (const Field& field : kFields) {
-    const std::string pointer = pointer_to(std::string(field.part), field.name);
-    if (field.type != Type::kObject || pointer == "/settings") continue;
-    const Json::json_pointer at(pointer);
-    if (line.contains(at) && line.at(at).is_object()) check_part(pointer, line.at(at));
+    if (field.type != Type::kObject || field.name == "settings") continue;
+    std::string path(field.part);
+    path += (path.empty() ? "" : "/") + std::string(field.name);
+    const Json::json_pointer at('/' + path);
+    if (line.contains(at) && line.at(at).is_object()) check_part(path, line.at(at));
   }
 }
 

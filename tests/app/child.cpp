@@ -52,6 +52,7 @@ void limit(int resource, rlim_t most) {
 [[noreturn]] void become(const std::string& program, const HostileInput& input,
                          const fs::path& folder, const std::string& out, const std::string& err) {
   if (::chdir(folder.c_str()) != 0) std::_Exit(126);
+  std::signal(SIGINT, SIG_DFL);  // the tests may run in the background
   place(STDIN_FILENO, input.standard_input, O_RDONLY);
   place(STDOUT_FILENO,
         input.output_is_closed ? ""

@@ -35,7 +35,7 @@ const Defect kDefects[] = {
     {"mkdir d; sed '2s/\"alpha\":[0-9.e-]*/\"alpha\":0.77/' RESULTS >d/results.1.jsonl", "merge d",
      2, "the id of this experiment", "true"},
     {"mkdir d; sed '2s/\"substeps\":[0-9]*/\"substeps\":-1/' RESULTS >d/results.1.jsonl", "merge d",
-     2, ":2: /work/substeps: must be a whole number from 0", "true"},
+     2, "/substeps: must be a whole number from 0", "true"},
     {"mkdir d; sed '2s/\"flops\":[0-9]*/\"flops\":0.5/' RESULTS >d/results.1.jsonl", "merge d", 2,
      "/flops: must be a whole number", "true"},
     {"mkdir d; sed '2s/\"peak\":[0-9.e-]*/\"peak\":[]/' RESULTS >d/results.1.jsonl", "merge d", 2,

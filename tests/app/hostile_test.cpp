@@ -166,14 +166,14 @@ TEST(Hostile, MessagesHaveNoControlCharacters) {
   }
 }
 
-/// Runs a command and sends it a signal after a delay; with job control, without which the shell
-/// starts it with SIGINT ignored. @return its outcome, and the time from the
+/// Runs a command and sends it a signal after a delay. The shell would start it with SIGINT
+/// ignored. @return its outcome, and the time from the
 /// signal to its end [s]
 std::pair<Outcome, double> interrupted_once(const std::string& command, const char* signal) {
   const fs::path took = folder() / "took";
   const Outcome run = substep(
       command,
-      "bash -c 'set -m; \"$@\" & pid=$!; sleep 0.7; begin=$(date +%s%N); kill -" +
+      "bash -c 'env --default-signal \"$@\" & pid=$!; sleep 0.7; begin=$(date +%s%N); kill -" +
           std::string(signal) +
           " $pid; wait $pid; code=$?; echo $(( $(date +%s%N) - begin )) >\"$0\"; exit $code' \"" +
           took.string() + "\"");

@@ -4,6 +4,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/flags.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/run_report.hpp"
 #include "app/cli/scene_source.hpp"
@@ -37,11 +38,10 @@ void print_stages(const Metrics& run) {
   const StageTimes& times = run.timing.stages;
   if (run.work.frames == 0 || !(times.total > 0.0)) return;
   const auto line = [&](const char* name, double seconds) {
-    std::printf("%-16s %9.4f %6.1f %%\n", name,
-                1e3 * seconds / static_cast<double>(run.work.frames),
-                100.0 * seconds / times.total);
+    say(stdout, "%-16s %9.4f %6.1f %%\n", name,
+        1e3 * seconds / static_cast<double>(run.work.frames), 100.0 * seconds / times.total);
   };
-  std::printf("\n%-16s %9s %8s\n", "stage", "ms/frame", "share");
+  say(stdout, "\n%-16s %9s %8s\n", "stage", "ms/frame", "share");
   double known = 0.0;
   for (const auto& [name, seconds] : kStages) {
     if (times.*seconds > 0.0) line(name, times.*seconds);
@@ -54,29 +54,29 @@ void print_rows(const Work& work) {
   if (work.solves == 0) return;
   const RowCounts& rows = work.rows;
   const auto all = static_cast<double>(rows.joint + rows.contact + rows.friction);
-  std::printf("\n%-16s %9s %12s\n", "rows", "per solve", "updates");
+  say(stdout, "\n%-16s %9s %12s\n", "rows", "per solve", "updates");
   const auto line = [&](const char* name, std::int64_t count) {
     if (count == 0) return;
     const auto n = static_cast<double>(count);
-    std::printf("%-16s %9.1f %12.4g\n", name, n / static_cast<double>(work.solves),
-                static_cast<double>(work.row_updates) * n / all);
+    say(stdout, "%-16s %9.1f %12.4g\n", name, n / static_cast<double>(work.solves),
+        static_cast<double>(work.row_updates) * n / all);
   };
   line("joint", rows.joint);
   line("contact", rows.contact);
   line("friction", rows.friction);
   if (work.criterion.evaluations == 0) return;
   const auto criterion = static_cast<double>(work.criterion.flops);
-  std::printf(
+  say(stdout,
       "\nThe criterion: %.4g operations in %lld evaluations, %.1f %% of the solver's %.4g.\n",
       criterion, static_cast<long long>(work.criterion.evaluations),
       100.0 * criterion / static_cast<double>(work.flops), static_cast<double>(work.flops));
 }
 
 void print_effects(const std::vector<EffectCost>& effects) {
-  std::printf("\n%-16s %9s %12s %12s\n", "effect adds", "ms/frame", "operations", "updates");
+  say(stdout, "\n%-16s %9s %12s %12s\n", "effect adds", "ms/frame", "operations", "updates");
   for (const EffectCost& cost : effects) {
-    std::printf("%-16s %9.4f %12.4g %12.4g\n", std::string(cost.effect).c_str(), cost.ms,
-                cost.flops, cost.row_updates);
+    say(stdout, "%-16s %9.4f %12.4g %12.4g\n", std::string(cost.effect).c_str(), cost.ms,
+        cost.flops, cost.row_updates);
   }
 }
 
@@ -94,13 +94,12 @@ int cost(const CostOptions& options) {
     if (!json.close()) return kBadInput;
     if (is_standard_output(options.json)) return kOk;
   }
-  std::printf("%s: %s; %lld frames\n", scene->name.c_str(),
-              settings_line(experiment.settings).c_str(),
-              static_cast<long long>(costs.run.work.frames));
+  say(stdout, "%s: %s; %lld frames\n", scene->name.c_str(),
+      settings_line(experiment.settings).c_str(), static_cast<long long>(costs.run.work.frames));
   print_stages(costs.run);
   print_rows(costs.run.work);
   print_effects(costs.effects);
-  std::printf("\n%s\n", costs.run.verdict.c_str());
+  say(stdout, "\n%s\n", costs.run.verdict.c_str());
   return kOk;
 }
 

@@ -26,8 +26,8 @@ struct ExamOptions {
 
 int list_cases() {
   for (const ExamEntry& entry : scenes::exam()) {
-    std::printf("%-16s %s%s%s\n", entry.name.c_str(), entry.title.c_str(),
-                entry.not_reached.empty() ? "" : "; not supported: ", entry.not_reached.c_str());
+    say(stdout, "%-16s %s%s%s\n", entry.name.c_str(), entry.title.c_str(),
+        entry.not_reached.empty() ? "" : "; not supported: ", entry.not_reached.c_str());
   }
   return kOk;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/cli/message.hpp"
 #include "core/model/format_text.hpp"
 
 namespace substep::cli {
@@ -62,33 +63,32 @@ std::string verdict_of(const ExamOutcome& outcome) {
 }
 
 void print_case(const ExamOutcome& outcome) {
-  std::printf("%s: %s\n", outcome.entry->name.c_str(), outcome.entry->title.c_str());
+  say(stdout, "%s: %s\n", outcome.entry->name.c_str(), outcome.entry->title.c_str());
   if (!outcome.reached_by_vocabulary()) {
-    std::printf("  %s\n\n", verdict_of(outcome).c_str());
+    say(stdout, "  %s\n\n", verdict_of(outcome).c_str());
     return;
   }
   const ExamCase& exam = outcome.exam;
-  std::printf("  %s\n  From %s.\n", exam.definition.c_str(), exam.source.c_str());
+  say(stdout, "  %s\n  From %s.\n", exam.definition.c_str(), exam.source.c_str());
   for (std::size_t i = 0; i < exam.quantities.size(); ++i) {
     const ExamQuantity& quantity = exam.quantities[i];
-    std::printf("  [%zu] %s <= %.2g %s%s: %s\n", i + 1, quantity.name.c_str(), quantity.tolerance,
-                quantity.unit.c_str(), quantity.for_every_run ? " in every run" : "",
-                quantity.why.c_str());
+    say(stdout, "  [%zu] %s <= %.2g %s%s: %s\n", i + 1, quantity.name.c_str(), quantity.tolerance,
+        quantity.unit.c_str(), quantity.for_every_run ? " in every run" : "", quantity.why.c_str());
   }
-  std::printf("  %-16s %12s %9s", "method", "", "sub-steps");
-  for (std::size_t i = 0; i < exam.quantities.size(); ++i) std::printf("       [%zu]", i + 1);
-  std::printf("   order  time [s]\n");
+  say(stdout, "  %-16s %12s %9s", "method", "", "sub-steps");
+  for (std::size_t i = 0; i < exam.quantities.size(); ++i) say(stdout, "       [%zu]", i + 1);
+  say(stdout, "   order  time [s]\n");
   for (const ExamRow& row : outcome.result.rows) {
     const std::string parameter = format_text("%s %g", row.parameter.c_str(), row.value);
-    std::printf("  %-16s %12s %9.1f", row.method.c_str(), parameter.c_str(), row.substeps);
+    say(stdout, "  %-16s %12s %9.1f", row.method.c_str(), parameter.c_str(), row.substeps);
     for (std::size_t i = 0; i < row.errors.size(); ++i) {
-      std::printf(" %8.1e%c", row.errors[i], row.within[i] ? '*' : ' ');
+      say(stdout, " %8.1e%c", row.errors[i], row.within[i] ? '*' : ' ');
     }
     const std::string order = row.order ? format_text("%.2f", *row.order) : "-";
-    std::printf(" %6s%c %9.2f  %s\n", order.c_str(), row.keeps ? ' ' : '!', row.seconds,
-                row.status.c_str());
+    say(stdout, " %6s%c %9.2f  %s\n", order.c_str(), row.keeps ? ' ' : '!', row.seconds,
+        row.status.c_str());
   }
-  std::printf("  %s\n\n", verdict_of(outcome).c_str());
+  say(stdout, "  %s\n\n", verdict_of(outcome).c_str());
   std::fflush(stdout);
 }
 
@@ -106,10 +106,10 @@ void print_summary(const std::vector<ExamOutcome>& outcomes) {
         text += (outcome.result.reached ? "" : "; ") + broken_text(outcome);
       }
     }
-    std::printf("%-16s %s\n", outcome.entry->name.c_str(), text.c_str());
+    say(stdout, "%-16s %s\n", outcome.entry->name.c_str(), text.c_str());
   }
-  std::printf("%d of %d cases pass; %zu not supported\n", passed, run,
-              outcomes.size() - static_cast<std::size_t>(run));
+  say(stdout, "%d of %d cases pass; %zu not supported\n", passed, run,
+      outcomes.size() - static_cast<std::size_t>(run));
 }
 
 Json exam_json(const std::vector<ExamOutcome>& outcomes) {

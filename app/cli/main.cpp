@@ -1,7 +1,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -38,14 +37,7 @@ bool knows_command(const CLI::App& app, const std::string& word) {
 
 /// The library's one-line message with a pointer to the help; quoted text is escaped.
 std::string failure(const CLI::App* app, const CLI::Error& error) {
-  const std::string text = CLI::FailureMessage::simple(app, error);
-  std::string shown;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    shown += visible_text(text.substr(at, end - at)) + '\n';
-    at = end + 1;
-  }
-  return shown;
+  return visible_lines(CLI::FailureMessage::simple(app, error));
 }
 
 int parse_and_run(int argc, char** argv) {

@@ -1,16 +1,23 @@
 #pragma once
+// Printing for people. Text that comes from a file or from the command line cannot control the
+// terminal.
 
+#include <cstdio>
 #include <string>
 #include <string_view>
 
+#include "core/model/text_checks.hpp"
+
 namespace substep::cli {
 
-/// Escapes every byte that could control a terminal, as in "\x1b": control characters (C0, DEL and
-/// C1) and invalid UTF-8. The rest is unchanged. For messages that contain external names, keys and
-/// paths.
-std::string visible_text(std::string_view text);
+/// Lines of text, each of them visible_text().
+std::string visible_lines(std::string_view text);
 
 /// Prints a line on standard error, like printf; adds the line feed. The line is visible_text().
 [[gnu::format(printf, 1, 2)]] void complain(const char* pattern, ...);
+
+/// Prints on a file, like fprintf: visible_lines(). A path, or another text that may have line
+/// feeds of its own, needs visible_text() before.
+[[gnu::format(printf, 2, 3)]] void say(std::FILE* file, const char* pattern, ...);
 
 }  // namespace substep::cli

@@ -150,7 +150,7 @@ bool write_page(const fs::path& path, const Json& data, bool quiet) {
   page += text;
   page += report::kTail;
   if (!write_file(path.string(), page)) return false;
-  if (!quiet) std::printf("report   %s\n", path.string().c_str());
+  if (!quiet) say(stdout, "report   %s\n", visible_text(path.string()).c_str());
   return true;
 }
 

@@ -103,8 +103,8 @@ int run(const ReproduceOptions& options) {
   for (const Card& card : cards) {
     all = all && card.outcome != Card::Outcome::kFails;
     if (!options.quiet) {
-      std::printf("%-8s %s\n         %s\n", name_of(card.outcome), card.title.c_str(),
-                  card.here.c_str());
+      say(stdout, "%-8s %s\n         %s\n", name_of(card.outcome), card.title.c_str(),
+          card.here.c_str());
     }
   }
   if (!write_page(folder / "report.html", page_of(cards), options.quiet)) return kBadInput;

@@ -104,12 +104,11 @@ int run(const RunOptions& options) {
   // If a result goes to standard output, messages go to stderr.
   std::FILE* words = options.files.take_standard_output() ? stderr : stdout;
   if (!options.quiet) {
-    std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
-                 settings_line(simulator.settings()).c_str(),
-                 forecast_line(*scene, simulator.settings()).c_str());
+    say(words, "%s: %s\n%s", scene->name.c_str(), settings_line(simulator.settings()).c_str(),
+        forecast_line(*scene, simulator.settings()).c_str());
     for (const std::string& note : {start_text(*scene, simulator.start()),
                                     overlap_text(*scene, simulator.settings(), start)}) {
-      if (!note.empty()) std::fprintf(words, "%s\n", note.c_str());
+      if (!note.empty()) say(words, "%s\n", note.c_str());
     }
     std::fflush(words);
   }
@@ -133,13 +132,12 @@ int run(const RunOptions& options) {
   }
 
   if (!options.quiet) {
-    std::fprintf(words, "%s",
-                 report.summary(measure.metrics(simulator.scene(), simulator.state())).c_str());
+    say(words, "%s", report.summary(measure.metrics(simulator.scene(), simulator.state())).c_str());
     std::fflush(words);
     const std::string lines = failed ? remedy_lines(simulator, verdict, *failed, frames) : "";
-    if (!cancelled) std::fprintf(words, "%s", lines.c_str());
+    if (!cancelled) say(words, "%s", lines.c_str());
   }
-  std::fprintf(words, "%s\n", verdict.text().c_str());
+  say(words, "%s\n", verdict.text().c_str());
   return verdict.stopped() ? kNotFinite : kOk;
 }
 

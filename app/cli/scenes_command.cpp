@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/scene_source.hpp"
 #include "core/io/json.hpp"
 #include "core/model/effects.hpp"
@@ -24,7 +25,7 @@ int list_scenes(bool as_json) {
   int exit_code = kOk;
   Json results = Json::array();
   if (!as_json)
-    std::printf("%-24s %-8s %6s %6s  %s\n", "name", "group", "bodies", "joints", "effects");
+    say(stdout, "%-24s %-8s %6s %6s  %s\n", "name", "group", "bodies", "joints", "effects");
   for (const std::string& name : shipped_names()) {
     const auto scene = load_scene(name);
     if (!scene) {
@@ -46,12 +47,12 @@ int list_scenes(bool as_json) {
       }
       results.push_back(result);
     } else {
-      std::printf("%-24s %-8s %6zu %6zu  %s\n", scene->name.c_str(), scene->group.c_str(),
-                  scene->bodies.size(), scene->joints.size(), effect_list(scene->effects).c_str());
+      say(stdout, "%-24s %-8s %6zu %6zu  %s\n", scene->name.c_str(), scene->group.c_str(),
+          scene->bodies.size(), scene->joints.size(), effect_list(scene->effects).c_str());
     }
   }
   if (as_json) {
-    std::printf("%s\n", results.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    say(stdout, "%s\n", results.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   }
   return exit_code;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/model/scene_limits.hpp"
+#include "core/model/text_checks.hpp"
 
 namespace substep {
 namespace {
@@ -127,13 +128,12 @@ bool ObjectReader::text(std::string_view key, std::size_t longest, std::string& 
     problem(key, must_be("a string", value_text(*value)));
     return false;
   }
-  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
   if (words->size() > longest) {
     problem(key, too_many(words->size(), longest, "bytes"));
   } else if (presence == kRequired && words->empty()) {
     problem(key, "must not be empty");
-  } else if (std::any_of(words->begin(), words->end(), is_control)) {
-    problem(key, value_text(*value) + " has a control character");
+  } else if (const auto fault = text_fault(*words)) {
+    problem(key, value_text(*value) + *fault);
   } else {
     target = *words;
     return true;

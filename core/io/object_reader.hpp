@@ -30,7 +30,7 @@ class ObjectReader {
   bool number(std::string_view key, const Range& range, double& target, Presence presence);
   bool integer(std::string_view key, int least, int most, int& target, Presence presence);
   bool flag(std::string_view key, bool& target, Presence presence);
-  /// @param longest allowed [bytes]; control characters are not allowed
+  /// @param longest allowed [bytes]; characters that text_fault() refuses are not allowed
   bool text(std::string_view key, std::size_t longest, std::string& target, Presence presence);
   /// The index of one of the names, or nothing.
   std::optional<std::size_t> choice(std::string_view key, std::span<const std::string_view> names,

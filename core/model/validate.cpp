@@ -13,6 +13,7 @@
 #include "core/model/scene_checks.hpp"
 #include "core/model/scene_limits.hpp"
 #include "core/model/setting_fields.hpp"
+#include "core/model/text_checks.hpp"
 
 namespace substep {
 namespace {
@@ -227,6 +228,37 @@ Problems check_all_values(const Scene& scene, SoundParts& sound) {
   return problems;
 }
 
+void check_text(const std::string& text, const DataPlace& place, Problems& problems) {
+  const auto fault = text_fault(text);
+  if (fault) problems.push_back({place.pointer(), '"' + visible_text(text) + '"' + *fault});
+}
+
+void check_texts(const Scene& scene, Problems& problems) {
+  const DataPlace root("");
+  check_text(scene.name, root.at("name"), problems);
+  check_text(scene.title, root.at("title"), problems);
+  check_text(scene.group, root.at("group"), problems);
+  check_text(scene.description, root.at("description"), problems);
+  check_text(scene.look_for, root.at("look_for"), problems);
+  const DataPlace bodies("/bodies");
+  for (std::size_t i = 0; i < scene.bodies.size() && problems.size() < kMaxProblems; ++i) {
+    const DataPlace body = bodies.at(i);
+    check_text(scene.bodies[i].name, body.at("name"), problems);
+  }
+  const DataPlace joints("/joints");
+  for (std::size_t i = 0; i < scene.joints.size() && problems.size() < kMaxProblems; ++i) {
+    const DataPlace joint = joints.at(i);
+    check_text(base(scene.joints[i]).name, joint.at("name"), problems);
+  }
+  const DataPlace verdicts("/verdicts");
+  for (std::size_t i = 0; i < scene.verdicts.size() && problems.size() < kMaxProblems; ++i) {
+    const DataPlace rule = verdicts.at(i);
+    check_text(scene.verdicts[i].why, rule.at("why"), problems);
+  }
+  const DataPlace recommended("/recommended");
+  if (scene.recommended) check_text(scene.recommended->why, recommended.at("why"), problems);
+}
+
 Problems first_of(Problems problems) {
   if (problems.size() > kMaxProblems) problems.resize(kMaxProblems);
   return problems;
@@ -242,6 +274,7 @@ Problems validate(const Scene& scene) {
   if (std::none_of(scene.bodies.begin(), scene.bodies.end(), moves)) {
     problems.push_back({"/bodies", "no body moves"});
   }
+  check_texts(scene, problems);
   check_effects(scene, problems);
   check_joint_starts(scene, sound, problems);
   check_redundant_rows(scene, sound, problems);

@@ -11,9 +11,10 @@
 
 namespace substep {
 
-/// All problems of a scene: those of check_values(), and contradictions between its parts: no
-/// moving body, joints that start open, redundant joints and contacts, disabled effects that the
-/// content requires. Names and other texts are not checked: only files refer to them.
+/// All problems of a scene: those of check_values(), names and other texts with characters that
+/// text_fault() refuses, and contradictions between its parts: no moving body, joints that start
+/// open, redundant joints and contacts, disabled effects that the content requires. That names are
+/// given and unique is not checked: only files refer to them.
 Problems validate(const Scene& scene);
 
 /// Settings outside their ranges, and enumerators that do not exist. Pointers begin with

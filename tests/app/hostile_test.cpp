@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/io/json.hpp"
+#include "core/model/text_checks.hpp"
 #include "tests/app/program.hpp"
 
 namespace substep {
@@ -142,13 +143,21 @@ TEST(Hostile, AnEditedSceneDoesNotMixIntoAnOldSweep) {
   EXPECT_EQ(text_of(at / "s" / "results.jsonl"), results);
 }
 
+/// Every line that a person reads is plain text.
+void expect_harmless(const Outcome& run) {
+  for (const std::string& text : {run.out, run.err}) {
+    for (const std::string& line : lines_of(text))
+      EXPECT_EQ(text_fault(line), std::nullopt) << line;
+  }
+}
+
 TEST(Hostile, MessagesHaveNoControlCharacters) {
   const fs::path at = fresh();
   Json scene = Json::parse(text_of(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json"));
-  scene["\x1b[31mred\x07\xc2\x9b"] = 1;
+  scene["\x1b[31mred\x07\xc2\x9b\xe2\x80\xae"] = 1;
   std::ofstream(at / "key.json") << scene.dump();
   std::ofstream(at / "list") << "{\"scene\": \"\\u001b[31m\", \"\\u001bkey\": 1}\n";
-  const std::string raw = "$(printf '\\033[31mred\\007\\233')";
+  const std::string raw = "$(printf '\\033[31mred\\007\\233\\302\\233\\342\\200\\256')";
   for (const std::string& command :
        {std::string("run ") + (at / "key.json").string(),
         "run --experiments " + (at / "list").string(), "run \"" + raw + "\"", "\"" + raw + "\"",
@@ -159,10 +168,24 @@ TEST(Hostile, MessagesHaveNoControlCharacters) {
     const Outcome run = substep(command);
     EXPECT_EQ(run.exit_code, 2) << command;
     EXPECT_NE(run.err.find("\\x1b"), std::string::npos) << command << ": " << run.err;
-    for (const char c : run.err) {
-      EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << command;
+    expect_harmless(run);
+  }
+}
+
+TEST(Hostile, NamesOfScenesCannotSteerATerminal) {
+  const fs::path at = fresh();
+  for (const char* odd : {"\xc2\x9b"
+                          "31m",
+                          "\xe2\x80\xae", "\xe2\x81\xa7", "\xe2\x80\xa8", "\xef\xbb\xbf"}) {
+    Json scene = Json::parse(text_of(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json"));
+    for (const char* place : {"/group", "/title", "/bodies/0/name", "/joints/0/name"}) {
+      Json changed = scene;
+      changed[Json::json_pointer(place)] = "a" + std::string(odd) + "b";
+      std::ofstream(at / "name.json") << changed.dump();
+      const Outcome run = substep("run " + (at / "name.json").string());
+      expect_refused(run, place);
+      expect_harmless(run);
     }
-    EXPECT_EQ(run.err.find('\x9b'), std::string::npos) << command;
   }
 }
 

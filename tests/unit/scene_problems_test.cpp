@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"ControlCharacter",
                 R"("name": "floor")",
                 R"("name": "flo\u0007or")",
-                {"/bodies/0/name: \"flo\\u0007or\" has a control character"}},
+                {"/bodies/0/name: \"flo\\u0007or\" has a control character (U+0007)"}},
         BadFile{"JointNameTwice",
                 R"("name": "socket")",
                 R"("name": "hinge")",

@@ -65,6 +65,8 @@ export function makeFrame(element, wholePage) {
     clear() { overlay.hidden = true; },
     /** Applies the theme of the laboratory to the HTML. */
     paint(dark) { element.dataset.theme = dark ? "dark" : "light"; },
+    /** Ends listeners outside the canvas. */
+    stop() { ending.abort(); },
     /** Restores the element. */
     end() {
       ending.abort();

@@ -7,6 +7,7 @@ import { makeFiles } from "./files.mjs";
 import { makeFrame } from "./frame.mjs";
 import { listen } from "./input.mjs";
 import { LoadError, loadEngine, loseContext, makeEngine } from "./loader.mjs";
+import { optionError, problemsOf, readOptions } from "./options.mjs";
 import { makeSceneReader } from "./scene_reader.mjs";
 import { makeTour } from "./tour.mjs";
 import { makeTwin } from "./twin.mjs";
@@ -62,13 +63,15 @@ async function load(frame) {
  *   address: whether the page's address holds the experiment, false
  *   wholePage: whether wheel and touch always belong to the laboratory; otherwise (false) they
  *     scroll the page until the laboratory is clicked or tapped
- * @returns a promise of the API; rejected if the browser lacks a required feature
+ * @returns a promise of the API; rejected if an option is unknown or invalid, with a message that
+ *   names it, or if the browser lacks a required feature
  */
-export async function createSubstep(element, options = {}) {
+export async function createSubstep(element, options) {
   if (!(element instanceof HTMLElement)) {
     throw new TypeError("createSubstep: the first argument must be an element of the page");
   }
-  const frame = makeFrame(element, options.wholePage === true);
+  const chosen = readOptions(options);
+  const frame = makeFrame(element, chosen.wholePage);
   const { lacking, renderer } = inspect();
   if (lacking) {
     frame.say("This browser cannot show substep", `It needs ${lacking}, which is unavailable or ` +
@@ -77,7 +80,7 @@ export async function createSubstep(element, options = {}) {
     throw new Error(`substep needs ${lacking}`);
   }
   try {
-    return await open(frame, options, renderer);
+    return await open(frame, chosen, renderer);
   } catch (error) {
     console.error(error);
     frame.say("substep did not start", String(error?.message ?? error));
@@ -100,7 +103,7 @@ async function open(frame, options, renderer) {
   const wasm = await makeEngine(engine, frame.canvas, host, renderer);
   const readScene = makeSceneReader(wasm);
   const files = makeFiles(frame, wasm, host, readScene);
-  const address = makeAddress(wasm, host, readScene, options.address === true, frame.signal);
+  const address = makeAddress(wasm, host, readScene, options.address, frame.signal);
   const capture = makeCapture(frame, wasm, host, files.save);
   wasm.run(frame.wholePage);
 
@@ -124,13 +127,18 @@ async function open(frame, options, renderer) {
   api = makeApi({ wasm, wake, address, capture, clock, frame });
   const { calls } = api;
   if (matchMedia("(prefers-color-scheme: light)").matches) calls.set({ theme: "light" });
-  if (options.play !== false) calls.play();
+  if (options.play) calls.play();
   const problems = [];
-  if (options.scene !== undefined) problems.push(...calls.load(options.scene).problems);
-  if (options.settings !== undefined) problems.push(...calls.set(options.settings).problems);
-  if (options.link !== undefined) problems.push(...(await calls.openLink(options.link)).problems);
-  if (problems.length > 0) console.warn("createSubstep: some options were ignored", problems);
-  if (options.play === false) calls.pause();
+  if (options.scene !== undefined) problems.push(...problemsOf("scene", calls.load(options.scene)));
+  if (options.settings !== undefined) problems.push(...problemsOf("settings", calls.set(options.settings)));
+  if (options.link !== undefined) problems.push(...problemsOf("link", await calls.openLink(options.link)));
+  if (problems.length > 0) {
+    clock.stop();
+    frame.stop();
+    wasm.close();
+    throw optionError(problems);
+  }
+  if (!options.play) calls.pause();
   const linked = await address.start();
   if (frame.wholePage && !linked) wasm.introduce();
   if (frame.tour) tour = makeTour(frame, calls);

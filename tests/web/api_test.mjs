@@ -207,6 +207,51 @@ test("two laboratories in an article are independent", async () => {
   await leave(article);
 });
 
+test("createSubstep rejects invalid options, and names them", async () => {
+  const other = await openPage(session, { path: "example/article.html" });
+  await other.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
+  const attempt = (options) => other.evaluate(async (given) => {
+    const { createSubstep } = await import("../substep.mjs");
+    const place = document.body.appendChild(document.createElement("div"));
+    place.style.height = "300px";
+    try {
+      const lab = await createSubstep(place, given);
+      const { scene } = lab.report();
+      lab.remove();
+      return { scene };
+    } catch (error) {
+      return { message: `${error.name}: ${error.message}`, shown: place.innerText };
+    } finally {
+      place.remove();
+    }
+  }, options);
+  assert.deepEqual(await attempt(null), { scene: "swinging_box" }, "as without options");
+  assert.deepEqual(await attempt({ scene: "pendulum", play: false }), { scene: "pendulum" });
+  for (const [options, message] of [
+    [3, /^Error: createSubstep: the options must be an object/],
+    [{ sceen: "bridge" }, /^Error: createSubstep: no option is called "sceen": they are scene, /],
+    [{ play: "no" }, /^Error: createSubstep: play must be true or false/],
+  ]) {
+    assert.match((await attempt(options)).message, message);
+  }
+  for (const [options, message] of [
+    [{ scene: "nowhere" }, /^Error: createSubstep: scene: .*nowhere/],
+    [{ scene: { bodies: 3 } }, /^Error: createSubstep: scene\/format: missing/],
+    [{ settings: { alpha: -1 } }, /^Error: createSubstep: settings\.alpha: must be above 0/],
+    [{ settings: { warp: 9 } }, /^Error: createSubstep: settings\.warp: /],
+    [{ link: "scene=nowhere" }, /^Error: createSubstep: link.*nowhere/],
+  ]) {
+    const { message: found, shown } = await attempt(options);
+    assert.match(found, message);
+    assert.match(shown, /substep did not start/);
+    assert.match(shown, /createSubstep: /);
+  }
+  // Each of the five is logged as well.
+  assert.equal(other.complaints.filter((text) => /createSubstep: /.test(text)).length, 5);
+  other.complaints = [];
+  await leave(other);
+});
+
 test("createSubstep reports a missing element, and can be removed", async () => {
   const other = await openPage(session, { path: "example/article.html" });
   await other.waitForFunction(() => window.laboratories, null, { timeout: 60000 });

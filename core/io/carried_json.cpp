@@ -124,8 +124,10 @@ Json force_json(const StoredForce& force) {
     return std::vector(numbers, numbers + count);
   };
   std::string tight;
-  for (const std::int8_t side : force.active_set)
-    tight += kSides[static_cast<std::size_t>(side + 1)];
+  for (const std::int8_t side : force.active_set) {
+    const int at = std::clamp(side + 1, 0, static_cast<int>(kSides.size()) - 1);
+    tight += kSides[static_cast<std::size_t>(at)];
+  }
   tight.erase(tight.find_last_not_of('0') + 1);
   Json json;
   json["id"] = format_text("%" PRIx64, force.id);

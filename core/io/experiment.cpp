@@ -38,6 +38,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   bare.recommended.reset();
   // The default settings are omitted too: a setting added later must not change the hash.
   Json content = Json::parse(write_scene(bare), nullptr, false);
+  if (!content.is_object()) return 0;  // a file cannot hold it
   content.erase("settings");
   content.erase("camera");
   // The same content as in version 1, which did not judge the energy unless the scene stated a

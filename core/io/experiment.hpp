@@ -18,7 +18,8 @@ inline constexpr int kMostSeed = 1'000'000;
 inline constexpr Range kLoadRange{1e-6, 1e6};
 
 /// Hash of the scene's content: bodies, joints, contact, gravity, criteria. Excludes texts, camera
-/// and verdict table, which do not affect a run, and settings, which belong to the experiment.
+/// and verdict table, which do not affect a run, and settings, which belong to the experiment. 0 if
+/// write_scene() cannot write it.
 std::uint64_t scene_hash(const Scene& scene);
 
 /// An experiment on a scene with the scene's duration.

@@ -32,8 +32,9 @@ std::string leading(const FrameView& f) {
 /// Centre of the tracked body, along one axis [m].
 template <int kAxis>
 std::string tracked(const FrameView& f) {
-  if (!f.scene.criteria.track) return "nan";
-  return number(f.state.x[index(*f.scene.criteria.track)][kAxis]);
+  const int body = f.scene.criteria.track.value_or(-1);
+  if (body < 0 || index(body) >= f.state.x.size()) return "nan";
+  return number(f.state.x[index(body)][kAxis]);
 }
 
 /// Sum over bodies, along one world axis.
@@ -48,7 +49,7 @@ std::string angular_momentum(const FrameView& f) {
 
 std::string leader(const FrameView& f) {
   const int body = f.report.leader.body;
-  return body < 0 ? "" : f.scene.bodies[index(body)].name;
+  return body < 0 || index(body) >= f.scene.bodies.size() ? "" : f.scene.bodies[index(body)].name;
 }
 
 constexpr FrameColumn kFrameColumns[] = {

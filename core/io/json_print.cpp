@@ -32,7 +32,8 @@ void print(const Json& json, const std::string& indent, std::string& out) {
     out += separator;
     separator = one_line ? ", " : ",";
     if (!one_line) out += "\n" + inner;
-    if (json.is_object()) out += Json(item.key()).dump() + ": ";
+    if (json.is_object())
+      out += Json(item.key()).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
     print(item.value(), inner, out);
   }
   if (!one_line) out += "\n" + indent;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/io/csv_text.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 namespace {
@@ -26,6 +27,7 @@ std::string states_header() { return "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz
 
 std::string states_lines(const Scene& scene, const State& state) {
   std::string lines;
+  if (!is_runnable(scene) || !fits(state, scene)) return lines;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     lines += start_of_line(state, scene.bodies[i].name);
     add(lines, state.x[i]);
@@ -43,6 +45,7 @@ std::string joints_header() { return "frame,time,joint,fx,fy,fz,tx,ty,tz,gap\n";
 std::string joints_lines(const Scene& scene, const State& state, const ConstraintForces& forces) {
   const Vec3 unknown = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   std::string lines;
+  if (!is_runnable(scene) || !fits(state, scene)) return lines;
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const JointBase& joint = base(scene.joints[i]);
     const bool known = i < forces.joints.size() && forces.joints[i].known;

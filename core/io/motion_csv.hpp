@@ -1,6 +1,6 @@
 #pragma once
 // A run as tables of bodies and joints, for comparison with other programs. Lossless numbers,
-// metres, world axes.
+// metres, world axes. No lines for a scene and a state that is_runnable() or fits() refuses.
 
 #include <string>
 

@@ -6,6 +6,7 @@
 
 #include "core/model/format_text.hpp"
 #include "core/model/scene_limits.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 namespace {
@@ -21,6 +22,7 @@ void append_date(std::string& text, const std::string& mark, const std::string& 
 }  // namespace
 
 Scene saved_scene(const Scene& scene, const State& state, const Settings& settings) {
+  if (!is_runnable(scene) || !fits(state, scene)) return {};
   Scene saved = scene;
   saved.settings = settings;
   saved.verdicts.clear();

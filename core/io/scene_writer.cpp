@@ -1,5 +1,7 @@
 #include "core/io/scene_writer.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -116,6 +118,24 @@ Json criteria_json(const Scene& scene) {
   return json;
 }
 
+/// Whether every reference to a body can be written: as a name.
+bool has_named_bodies(const Scene& scene) {
+  const auto is_body = [&](int body) { return !body_fault(scene.bodies, body); };
+  const Criteria& c = scene.criteria;
+  if (c.displacement && !is_body(c.displacement->body)) return false;
+  if (c.track && !is_body(*c.track)) return false;
+  return std::all_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
+    const JointBase& j = base(joint);
+    return (j.a == kWorld || is_body(j.a)) && (j.b == kWorld || is_body(j.b));
+  });
+}
+
+/// JSON has no other numbers.
+bool is_finite(const Json& json) {
+  if (json.is_structured()) return std::all_of(json.begin(), json.end(), is_finite);
+  return !json.is_number_float() || std::isfinite(json.get<double>());
+}
+
 Json scene_json(const Scene& scene) {
   Json json;
   json["format"] = "substep-scene";
@@ -162,6 +182,10 @@ Json scene_json(const Scene& scene) {
 
 }  // namespace
 
-std::string write_scene(const Scene& scene) { return json_file(scene_json(scene)); }
+std::string write_scene(const Scene& scene) {
+  if (!has_named_bodies(scene)) return "";
+  const Json json = scene_json(scene);
+  return is_finite(json) ? json_file(json) : "";
+}
 
 }  // namespace substep

@@ -7,7 +7,9 @@
 namespace substep {
 
 /// The scene as a file of the newest version; read_scene returns an equal scene. The bytes are the
-/// same on every machine; arrays of numbers are on one line.
+/// same on every machine; arrays of numbers are on one line. Empty if a file cannot hold the scene:
+/// a reference to a body that is not there, or a number that is not finite. Other invalid scenes
+/// are written, and refused by read_scene with the same problems.
 std::string write_scene(const Scene& scene);
 
 }  // namespace substep

@@ -6,6 +6,7 @@
 
 #include "core/lab/slice.hpp"
 #include "core/model/number_text.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 namespace {
@@ -45,7 +46,7 @@ AlphaSearch AlphaSearch::smallest_within(std::shared_ptr<const Scene> scene,
 AlphaSearch::AlphaSearch(std::shared_ptr<const Scene> scene, const Experiment& experiment,
                          const Reference& reference, Serves serves, bool until_it_serves,
                          const Budget& budget)
-    : scene_(std::move(scene)),
+    : scene_(not_null(std::move(scene))),
       experiment_(experiment),
       reference_(&reference),
       serves_(std::move(serves)),

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/forces/applied_forces.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 namespace {
@@ -54,7 +55,7 @@ std::optional<UniformAcceleration> box_on_slope(const Scene& scene, const Body& 
 }  // namespace
 
 std::optional<UniformAcceleration> closed_form(const Scene& scene) {
-  if (!scene.criteria.track || !scene.joints.empty()) return std::nullopt;
+  if (!scene.criteria.track || !scene.joints.empty() || !is_runnable(scene)) return std::nullopt;
   const Body& body = scene.bodies[index(*scene.criteria.track)];
   if (body.is_static) return std::nullopt;
   if (has_applied_forces(scene.effects, {&Effects::gravity, &Effects::external})) return {};

@@ -72,7 +72,10 @@ double mass_ratio(const Scene& scene) {
 }
 
 std::int64_t frames_of(const Scene& scene, double duration) {
-  return std::llround(duration / scene.frame);
+  constexpr double kMost = 1e15;
+  const double frames = duration / scene.frame;
+  if (!std::isfinite(frames)) return 0;
+  return std::llround(std::clamp(frames, 0.0, kMost));
 }
 
 std::string solver_text(const Settings& s) {

@@ -30,7 +30,7 @@ Scene start_of(const Scene& scene, double load, int seed);
 /// Mass of the heaviest moving body over that of the lightest [-].
 double mass_ratio(const Scene& scene);
 
-/// Number of frames of a duration, rounded.
+/// Number of frames of a duration, rounded; 0 if it is negative or no number.
 std::int64_t frames_of(const Scene& scene, double duration);
 
 /// The solver and its parameters: "bpp", "pgs 25", "newton mean", "newton 2 mean" if its steps are

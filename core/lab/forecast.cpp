@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/lab/experiment.hpp"
+#include "core/model/validate.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/stepping/substep_clock.hpp"
 
@@ -144,6 +145,7 @@ int wanted_at_start(const Scene& scene, Settings settings) {
 
 Forecast forecast(const Scene& scene, const Settings& settings) {
   Forecast result;
+  if (!is_runnable(scene)) return result;
   result.mass_ratio = mass_ratio(scene);
   result.at_start = wanted_at_start(scene, settings);
   const auto [r, body] = hanging_bound(scene);

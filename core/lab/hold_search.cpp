@@ -4,13 +4,14 @@
 #include <utility>
 
 #include "core/lab/slice.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 
 HoldSearch::HoldSearch(std::shared_ptr<const Scene> scene, std::vector<Result> candidates,
                        double seconds, const Reference& reference, Serves serves,
                        const Budget& budget)
-    : scene_(std::move(scene)),
+    : scene_(not_null(std::move(scene))),
       candidates_(std::move(candidates)),
       seconds_(seconds),
       reference_(&reference),
@@ -24,7 +25,8 @@ void HoldSearch::start() {
   run_.reset();
   if (failed_.size() == candidates_.size()) return;
   Experiment experiment = candidates_[failed_.size()].experiment;
-  if (frames_of(*scene_, experiment.duration) >= frames_of(*scene_, seconds_)) {
+  const bool is_long = frames_of(*scene_, experiment.duration) >= frames_of(*scene_, seconds_);
+  if (is_long && is_runnable(*scene_)) {
     found_ = failed_.size();
     return;
   }

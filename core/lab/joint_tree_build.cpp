@@ -5,6 +5,7 @@
 
 #include "core/forces/applied_forces.hpp"
 #include "core/lab/joint_tree.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 namespace {
@@ -252,6 +253,7 @@ class JointTree::Builder {
 };
 
 std::optional<JointTree> JointTree::of(const Scene& scene) {
+  if (!is_runnable(scene)) return std::nullopt;
   if (is_out_of_scope(scene)) return std::nullopt;
   return Builder(scene).build();
 }

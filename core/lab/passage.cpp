@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/collision/broad_phase.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 namespace {
@@ -49,10 +50,11 @@ double depth_inside(const Plane&, const Vec3&, const Vec3&) { return 0.0; }  // 
 }  // namespace
 
 PassageWatch::PassageWatch(const Scene& scene, const State& start)
-    : collisions_(std::make_shared<const BroadPhase>(scene)),
-      joined_(scene.bodies.size(), false),
+    : joined_(scene.bodies.size(), false),
       fast_(scene.bodies.size(), false),
       reach_(scene.bodies.size(), 0.0) {
+  if (!is_runnable(scene) || !fits(start, scene)) return;
+  collisions_ = std::make_shared<const BroadPhase>(scene);
   for (const Joint& joint : scene.joints) {
     joined_[index(base(joint).a)] = true;
     if (base(joint).b != kWorld) joined_[index(base(joint).b)] = true;
@@ -67,6 +69,7 @@ PassageWatch::PassageWatch(const Scene& scene, const State& start)
 }
 
 std::optional<Passage> PassageWatch::add(const Scene& scene, const State& now) {
+  if (!collisions_ || !fits(now, scene)) return std::nullopt;
   const std::optional<Passage> found = first(scene, now);
   for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = {now.x[i], now.q[i], now.u[i]};
   return found;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/forces/applied_forces.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 namespace {
@@ -58,6 +59,7 @@ std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(cons
 }
 
 std::optional<PlanarChain> PlanarChain::of(const Scene& scene) {
+  if (!is_runnable(scene)) return std::nullopt;
   if (has_applied_forces(scene.effects, {&Effects::gravity})) return std::nullopt;
   if (scene.effects.contact || !scene.effects.joints || scene.joints.empty()) return std::nullopt;
   std::size_t moving = 0;

@@ -13,6 +13,7 @@
 #include "core/lab/planar_chain.hpp"
 #include "core/lab/slice.hpp"
 #include "core/lab/verdict.hpp"
+#include "core/model/validate.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep {
@@ -274,10 +275,15 @@ double predictable_window(const Scene& scene, double duration) {
 // runs.
 ReferenceRun::ReferenceRun(std::shared_ptr<const Scene> scene, double duration,
                            const Budget& budget, double required)
-    : scene_(with_start_of_run(std::move(scene))),
-      source_(source_of(scene_, budget)),
-      required_(required),
-      frames_(frames_of(*scene_, predictable_window(*scene_, duration))) {
+    : required_(required) {
+  if (auto refusal = refusal_of(scene.get())) {
+    best_.emplace().failure = std::move(*refusal);
+    done_ = true;
+    return;
+  }
+  scene_ = with_start_of_run(std::move(scene));
+  source_ = source_of(scene_, budget);
+  frames_ = frames_of(*scene_, predictable_window(*scene_, duration));
   reference_.window = predictable_window(*scene_, duration);
   start();
 }
@@ -299,7 +305,7 @@ void ReferenceRun::start() {
 }
 
 bool ReferenceRun::advance() {
-  if (done_) return false;
+  if (done_ || !source_) return false;  // without a source it was moved
   if (frame_ < frames_) {
     const std::optional<Sample> sample = source_->next(time_of(frame_ + 1));
     if (!sample) return true;
@@ -338,11 +344,11 @@ double ReferenceRun::progress() const {
   return frames_ > 0 ? static_cast<double>(frame_) / static_cast<double>(frames_) : 1.0;
 }
 
-std::string ReferenceRun::source() const { return source_->name(); }
+std::string ReferenceRun::source() const { return source_ ? source_->name() : ""; }
 
 const Reference& ReferenceRun::reference() const {
   assert(done_ && "advance() until it returns false");
-  return *best_;
+  return best_ ? *best_ : no_reference();
 }
 
 const Reference& no_reference() {

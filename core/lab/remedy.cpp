@@ -6,6 +6,7 @@
 #include "core/lab/slice.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/model/format_text.hpp"
+#include "core/model/validate.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep {
@@ -96,14 +97,14 @@ struct RemedyTrials::Run {
 
 RemedyTrials::RemedyTrials(std::shared_ptr<const Scene> scene, std::vector<Remedy> remedies,
                            const Trial& trial)
-    : scene_(std::move(scene)), remedies_(std::move(remedies)), trial_(trial) {}
+    : scene_(not_null(std::move(scene))), remedies_(std::move(remedies)), trial_(trial) {}
 
 RemedyTrials::~RemedyTrials() = default;
 RemedyTrials::RemedyTrials(RemedyTrials&&) noexcept = default;
 RemedyTrials& RemedyTrials::operator=(RemedyTrials&&) noexcept = default;
 
 bool RemedyTrials::done() const {
-  return run_ == nullptr && (next_ == remedies_.size() || hold_.size() == trial_.enough);
+  return run_ == nullptr && (next_ >= remedies_.size() || hold_.size() == trial_.enough);
 }
 
 bool RemedyTrials::advance() {

@@ -5,6 +5,7 @@
 #include "core/lab/experiment.hpp"
 #include "core/lab/reference.hpp"
 #include "core/lab/slice.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 namespace {
@@ -14,7 +15,7 @@ constexpr int kSubsteps = 32;  // per frame: coarser than a reference, finer tha
 }  // namespace
 
 Survey::Survey(std::shared_ptr<const Scene> scene, double duration, const Budget& budget)
-    : scene_(std::move(scene)),
+    : scene_(not_null(std::move(scene))),
       simulator_(scene_),
       start_(simulator_.state()),
       frames_(frames_of(*scene_, duration)) {

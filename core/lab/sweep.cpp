@@ -6,6 +6,7 @@
 
 #include "core/lab/slice.hpp"
 #include "core/model/methods.hpp"
+#include "core/model/validate.hpp"
 #include "core/sim/islands.hpp"
 
 namespace substep {
@@ -206,6 +207,7 @@ Settings paper_settings(const Scene& scene) {
 }
 
 std::vector<SweepPoint> default_sweep(const Scene& scene) {
+  if (!is_runnable(scene)) return {};
   std::vector<Settings> all;
   const Settings base = base_of(scene);
   const auto curves = [&](SolverKind solver, Integrator integrator) {
@@ -283,7 +285,7 @@ double expected_work(const Scene& scene, const Experiment& experiment) {
 
 Sweep::Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experiments,
              const Budget& budget)
-    : scene_(std::move(scene)), experiments_(std::move(experiments)), budget_(budget) {
+    : scene_(not_null(std::move(scene))), experiments_(std::move(experiments)), budget_(budget) {
   double longest = 0.0;
   for (const Experiment& experiment : experiments_) {
     work_ += expected_work(*scene_, experiment);

@@ -6,6 +6,7 @@
 #include "core/forces/applied_forces.hpp"
 #include "core/lab/stop_text.hpp"
 #include "core/model/format_text.hpp"
+#include "core/model/validate.hpp"
 #include "core/stepping/compliance.hpp"
 
 namespace substep {
@@ -96,8 +97,10 @@ EnergyWatch::Rise EnergyWatch::worst() const {
 }
 
 Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& start)
-    : energy_at_start_(start.energy), inside_at_start_(start.inside) {
-  if (start.status == StepStatus::kInvalid) return;
+    : refused_(!is_runnable(scene) || !fits(state, scene)),
+      energy_at_start_(start.energy),
+      inside_at_start_(start.inside) {
+  if (refused_ || start.status == StepStatus::kInvalid) return;
   judges_overlaps_ = !scene.criteria.energy_gain && !is_soft_contact(scene.contact);
   if (!scene.criteria.energy_gain && !has_torque(scene)) energy_.emplace(scene, start);
   if (scene.effects.contact) passages_.emplace(scene, state);
@@ -108,6 +111,13 @@ Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& star
 void Verdict::add(const Scene& scene, const State& state, const FrameReport& report) {
   if (failed_) return;
   const Criteria& criteria = scene.criteria;
+  if (refused_ && report.status != StepStatus::kInvalid) {
+    FrameReport invalid;
+    invalid.status = StepStatus::kInvalid;
+    invalid.time = report.time;
+    add(scene, state, invalid);
+    return;
+  }
   std::string why = stop_text(scene, report);
   // The first criterion exceeded is the reason; all contribute to utilisation_.
   const auto judge = [&](What what, double value, double limit, const std::string& name,

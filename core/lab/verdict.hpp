@@ -89,6 +89,8 @@ class Verdict {
   /// @param start report of the initial state of the run (Simulator::observe)
   Verdict(const Scene& scene, const State& state, const FrameReport& start);
 
+  /// Whether the scene can run; if not, the first frame fails.
+  [[nodiscard]] bool refused() const { return refused_; }
   /// Checks one more frame. The first failure is final.
   void add(const Scene& scene, const State& state, const FrameReport& report);
 
@@ -109,6 +111,7 @@ class Verdict {
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
+  bool refused_;  // a scene that cannot run, or a state of another scene
   bool failed_ = false;
   bool disturbed_ = false;
   bool stopped_ = false;

@@ -2,11 +2,14 @@
 
 #include <vector>
 
+#include "core/model/body_checks.hpp"
 #include "core/model/scene.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 
 double joined_mass(const Scene& scene, int body) {
+  if (body_fault(scene.bodies, body) || !is_runnable(scene)) return 0.0;
   std::vector<bool> found(scene.bodies.size(), false);
   std::vector<int> open{body};
   found[index(body)] = true;

@@ -286,6 +286,28 @@ Problems check_values(const Scene& scene) {
   return first_of(check_all_values(scene, sound));
 }
 
+bool is_runnable(const Scene& scene) { return check_values(scene).empty(); }
+
+bool fits(const State& state, const Scene& scene) {
+  const std::size_t n = scene.bodies.size();
+  return state.x.size() == n && state.q.size() == n && state.u.size() == n &&
+         state.u_synchronised.size() == n;
+}
+
+std::optional<std::string> refusal_of(const Scene* scene) {
+  const std::string refused = "the scene is invalid: ";
+  if (scene == nullptr) return refused + "there is no scene";
+  const Problems problems = check_values(*scene);
+  return problems.empty() ? std::nullopt : std::optional(refused + to_code(problems.front()));
+}
+
+std::shared_ptr<const Scene> not_null(std::shared_ptr<const Scene> scene) {
+  if (scene) return scene;
+  Scene none;
+  none.frame = 0.0;  // out of range
+  return std::make_shared<const Scene>(std::move(none));
+}
+
 Problems validate(const Settings& settings) {
   Problems problems;
   check_settings(settings, "/settings", problems);

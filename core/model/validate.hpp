@@ -3,6 +3,10 @@
 // range, with the messages of the scene reader; ranges are those of scene_limits.hpp and
 // setting_fields.hpp. Reports at most kMaxProblems.
 
+#include <memory>
+#include <optional>
+#include <string>
+
 #include "core/model/budget.hpp"
 #include "core/model/grab.hpp"
 #include "core/model/problem.hpp"
@@ -35,5 +39,19 @@ Problems validate(const Budget& budget);
 /// a body with itself, lists of the wrong length. A start inconsistent with its joints can run, and
 /// so can a scene without moving bodies.
 Problems check_values(const Scene& scene);
+
+/// Whether check_values() finds nothing. What takes a scene in `sim`, `lab` and `io` refuses any
+/// other, as a Simulator does: it returns its empty result, or that of a run which fails at once.
+bool is_runnable(const Scene& scene);
+
+/// Whether a state has an item for every body of the scene: pose, and both velocities.
+bool fits(const State& state, const Scene& scene);
+
+/// The reason to refuse a scene, or nothing: "the scene is invalid: bodies[1].mass: must be above 0
+/// (kg), not 0". @param scene may be null
+std::optional<std::string> refusal_of(const Scene* scene);
+
+/// The scene, or if it is null one that every run refuses. @return never null
+std::shared_ptr<const Scene> not_null(std::shared_ptr<const Scene> scene);
 
 }  // namespace substep

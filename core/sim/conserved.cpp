@@ -1,11 +1,13 @@
 #include "core/sim/conserved.hpp"
 
 #include "core/forces/applied_forces.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 
 Energies energies_of(const Scene& scene, const State& state) {
   Energies sum;
+  if (!fits(state, scene)) return sum;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.is_static) continue;
@@ -21,6 +23,7 @@ Energies energies_of(const Scene& scene, const State& state) {
 
 Momenta momenta_of(const Scene& scene, const State& state) {
   Momenta sum;
+  if (!fits(state, scene)) return sum;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.is_static) continue;

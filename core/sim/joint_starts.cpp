@@ -6,6 +6,7 @@
 
 #include "core/constraints/joint_stage.hpp"
 #include "core/model/joint_fields.hpp"
+#include "core/model/validate.hpp"
 #include "core/stepping/effective_mass.hpp"
 
 namespace substep {
@@ -120,7 +121,7 @@ void for_each_joint(const Scene& scene, const State& state, const JointStage& jo
 
 std::vector<JointStart> joint_starts(const Scene& scene, const State& state) {
   std::vector<JointStart> starts;
-  if (!scene.effects.joints) return starts;
+  if (!scene.effects.joints || !is_runnable(scene) || !fits(state, scene)) return starts;
   for_each_joint(scene, state, JointStage(scene), [&](const Block& block, HoldingRows holds) {
     starts.push_back(measured(scene, state, block, holds));
   });

@@ -59,8 +59,12 @@ Simulator::Simulator(std::shared_ptr<const Scene> scene) {
   impl_->refused.scene = std::move(problems);
 }
 Simulator::~Simulator() = default;
-Simulator::Simulator(Simulator&&) noexcept = default;
-Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+Simulator::Simulator(Simulator&& other) noexcept : Simulator(nullptr) { impl_.swap(other.impl_); }
+Simulator& Simulator::operator=(Simulator&& other) noexcept {
+  Simulator moved(std::move(other));
+  impl_.swap(moved.impl_);
+  return *this;
+}
 
 FrameReport Simulator::observe() const {
   FrameReport report;

@@ -24,6 +24,7 @@ class Simulator {
   /// @param scene if it is null or fails check_values(), scene() is empty
   explicit Simulator(std::shared_ptr<const Scene> scene);
   ~Simulator();
+  /// The moved simulator is then like one without a scene; another can be assigned to it.
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 

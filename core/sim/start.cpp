@@ -9,6 +9,7 @@
 namespace substep {
 
 Start start_of_run(const Scene& scene) {
+  if (!is_runnable(scene)) return {};
   Start start{initial_state(scene), {}};
   StartReport& report = start.report;
   report.continued = scene.carried.has_value();
@@ -34,6 +35,7 @@ Start start_of_run(const Scene& scene) {
 }
 
 std::shared_ptr<const Scene> with_start_of_run(std::shared_ptr<const Scene> scene) {
+  if (!scene) return scene;
   const Start start = start_of_run(*scene);
   if (!start.report.projected) return scene;
   Scene begun = *scene;

@@ -8,6 +8,7 @@
 
 #include "core/constraints/joint_stage.hpp"
 #include "core/model/budget.hpp"
+#include "core/model/validate.hpp"
 #include "core/sim/joint_starts.hpp"
 #include "core/solver/bpp.hpp"
 #include "core/stepping/effective_mass.hpp"
@@ -220,6 +221,7 @@ void to_least_change(StartRows& rows, const State& start, State& state) {
 }  // namespace
 
 Projection close_joints(const Scene& scene, State& state) {
+  if (!is_runnable(scene) || !fits(state, scene)) return Projection::kFailed;
   for (const int body : whole(scene).moving) state.q[index(body)].normalize();
   const State start = state;
   StartRows rows(scene, state);
@@ -231,6 +233,7 @@ Projection close_joints(const Scene& scene, State& state) {
 }
 
 Projection match_velocities(const Scene& scene, State& state) {
+  if (!is_runnable(scene) || !fits(state, scene)) return Projection::kFailed;
   StartRows rows(scene, state);
   double error = rows.error_of(state.u);
   for (int i = 0; i < kMostMatching; ++i) {

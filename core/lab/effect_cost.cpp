@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
+#include "core/lab/bounded_sample.hpp"
 #include "core/lab/slice.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -58,32 +60,37 @@ class EffectCostRun::Again {
   bool advance() {
     const FrameReport report = simulator_.step_some(kPartWork);
     if (simulator_.substeps_left() > 0) return false;
-    frames_.push_back({without_, 1e3 * report.times.total, static_cast<double>(report.work.flops),
-                       static_cast<double>(report.work.row_updates)});
+    last_ = {without_, 1e3 * report.times.total, static_cast<double>(report.work.flops),
+             static_cast<double>(report.work.row_updates)};
     return true;
   }
 
-  /// Cost of the unchanged scene minus this one, over their common frames.
-  [[nodiscard]] EffectCost spared(const Again& whole) const {
+  /// Adds the cost of the last frame of the unchanged scene minus that of this one.
+  void compare(const Again& whole) {
+    ++frames_;
+    ms_.add(whole.last_.ms - last_.ms);
+    sum_.flops += whole.last_.flops - last_.flops;
+    sum_.row_updates += whole.last_.row_updates - last_.row_updates;
+  }
+
+  /// Mean of what was compared.
+  [[nodiscard]] EffectCost spared() const {
     EffectCost cost{without_};
-    if (frames_.empty()) return cost;
-    const auto more = [&](double EffectCost::*part) {
-      std::vector<double> list;
-      for (std::size_t i = 0; i < frames_.size(); ++i) {
-        list.push_back(whole.frames_[i].*part - frames_[i].*part);
-      }
-      return list;
-    };
-    cost.ms = trimmed_mean(more(&EffectCost::ms));
-    cost.flops = mean_of(more(&EffectCost::flops));
-    cost.row_updates = mean_of(more(&EffectCost::row_updates));
+    if (frames_ == 0) return cost;
+    const auto frames = static_cast<double>(frames_);
+    cost.ms = trimmed_mean(ms_.values());
+    cost.flops = sum_.flops / frames;
+    cost.row_updates = sum_.row_updates / frames;
     return cost;
   }
 
  private:
   Simulator simulator_;
-  std::string_view without_;        // the disabled effect, or ""
-  std::vector<EffectCost> frames_;  // each the cost of the whole frame
+  std::string_view without_;  // the disabled effect, or ""
+  EffectCost last_;           // of the last frame as a whole
+  EffectCost sum_;            // of what was compared; whole numbers, so that their sum is exact
+  BoundedSample ms_;          // of what was compared
+  std::int64_t frames_ = 0;   // compared
 };
 
 EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment, const Budget& budget)
@@ -105,7 +112,10 @@ EffectCostRun::~EffectCostRun() = default;
 
 bool EffectCostRun::advance() {
   if (next_ < again_.size()) {
-    if (again_[next_].advance()) ++next_;
+    if (again_[next_].advance()) {
+      if (next_ > 0) again_[next_].compare(again_.front());
+      ++next_;
+    }
   } else if (more_) {
     if (run_.simulator().substeps_left() == 0) before_ = run_.simulator().state();
     more_ = run_.advance();
@@ -121,7 +131,7 @@ bool EffectCostRun::advance() {
 CostBreakdown EffectCostRun::costs() const {
   CostBreakdown costs{run_.result().metrics, {}};
   for (std::size_t i = 1; i < again_.size(); ++i) {
-    costs.effects.push_back(again_[i].spared(again_.front()));
+    costs.effects.push_back(again_[i].spared());
   }
   return costs;
 }

@@ -27,7 +27,8 @@ struct CostBreakdown {
 /// cost of the effect, even in the direct solver, which eliminates rows of all kinds together.
 /// Islands with their own N recompute it; a common N due to coupling by an effect is part of its
 /// cost. Without contact there is no friction and no restitution. Works in parts of a single frame,
-/// to keep a page responsive.
+/// to keep a page responsive. Its memory does not grow with the frames: times of more than
+/// BoundedSample::kMost frames are those of a sample.
 class EffectCostRun {
  public:
   /// @param scene without the experiment's load and seed

@@ -12,21 +12,6 @@ namespace {
 
 constexpr std::size_t kWarmUp = 10;  // frames
 
-/// Quantile: the upper one if between two values.
-template <class T>
-T quantile(std::vector<T> values, double share) {
-  if (values.empty()) return T{};
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size()));
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::min(at, values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
-PeakAndMedian peak_and_median(const std::vector<double>& values) {
-  if (values.empty()) return {};
-  return {*std::max_element(values.begin(), values.end()), quantile(values, 0.5)};
-}
-
 /// True if no external forces act on the moving bodies.
 bool is_isolated(const Scene& scene) {
   if (has_applied_forces(scene.effects)) return false;
@@ -52,13 +37,20 @@ void add_times(const StageTimes& frame, StageTimes& sum) {
 
 }  // namespace
 
+void Measure::Spread::add(double value) {
+  peak = sample.values().empty() ? value : std::max(peak, value);
+  sample.add(value);
+}
+
+PeakAndMedian Measure::Spread::of_all() const { return {peak, sample.quantile(0.5)}; }
+
 Measure::Measure(const Scene& scene, const State& state, const FrameReport& start,
                  const Reference& reference)
     : reference_(reference),
       verdict_(scene, state, start),
       energy_at_start_(start.energy),
       energy_(start.energy) {
-  if (is_isolated(scene)) momentum_at_start_ = momenta_of(scene, state);
+  if (!verdict_.refused() && is_isolated(scene)) momentum_at_start_ = momenta_of(scene, state);
 }
 
 void Measure::add(const Scene& scene, const State& state, const FrameReport& report,
@@ -76,18 +68,25 @@ void Measure::add(const Scene& scene, const State& state, const FrameReport& rep
   work_.visits += report.visits;
   work_.rows += report.work.rows;
   work_.criterion += report.criterion;
-  n_.push_back(report.n_substeps);
-  seconds_.push_back(seconds);
+  work_.n_min = work_.frames == 1 ? report.n_substeps : std::min(work_.n_min, report.n_substeps);
+  work_.n_max = std::max(work_.n_max, report.n_substeps);
+  n_.add(report.n_substeps);
+  if (first_seconds_.size() < kWarmUp) {
+    first_seconds_.push_back(seconds);
+  } else {
+    seconds_.add(seconds);
+    wall_ += seconds;
+  }
   add_times(report.times, stages_);
-  constraint_.push_back(report.constraint_error);
-  joint_gap_.push_back(report.joint_gap);
-  penetration_.push_back(report.penetration);
+  constraint_.add(report.constraint_error);
+  joint_gap_.add(report.joint_gap);
+  penetration_.add(report.penetration);
   errors_.lcp_residual = std::max(errors_.lcp_residual, report.work.residual);
   energy_ = report.energy;
   errors_.energy_drift_peak =
       std::max(errors_.energy_drift_peak, std::abs(energy_ - energy_at_start_));
   const auto frame = static_cast<std::size_t>(report.frame);
-  if (frame < reference_.track.size() && scene.criteria.track) {
+  if (frame < reference_.track.size() && scene.criteria.track && !verdict_.refused()) {
     const Vec3& x = state.x[index(*scene.criteria.track)];
     errors_.trajectory_final = (x - reference_.track[frame]).norm();
     raise_to(errors_.trajectory_peak, *errors_.trajectory_final);
@@ -102,12 +101,17 @@ void Measure::add(const Scene& scene, const State& state, const FrameReport& rep
 Timing Measure::timing(const Scene& scene) const {
   Timing timing;
   timing.stages = stages_;
-  std::vector<double> warm = seconds_;
-  if (warm.size() > 2 * kWarmUp) warm.erase(warm.begin(), warm.begin() + kWarmUp);
-  timing.ms_median = 1e3 * quantile(warm, 0.5);
-  timing.ms_p95 = 1e3 * quantile(warm, 0.95);
-  const double wall = std::accumulate(warm.begin(), warm.end(), 0.0);
-  if (wall > 0.0) timing.real_time_factor = static_cast<double>(warm.size()) * scene.frame / wall;
+  BoundedSample warm = seconds_;
+  double wall = wall_;
+  auto frames = static_cast<std::size_t>(work_.frames) - first_seconds_.size();
+  if (frames <= kWarmUp) {  // too few to leave any out
+    for (const double seconds : first_seconds_) warm.add(seconds);
+    wall += std::accumulate(first_seconds_.begin(), first_seconds_.end(), 0.0);
+    frames += first_seconds_.size();
+  }
+  timing.ms_median = 1e3 * warm.quantile(0.5);
+  timing.ms_p95 = 1e3 * warm.quantile(0.95);
+  if (wall > 0.0) timing.real_time_factor = static_cast<double>(frames) * scene.frame / wall;
   return timing;
 }
 
@@ -121,19 +125,15 @@ Metrics Measure::metrics(const Scene& scene, const State& state) const {
   m.verdict = verdict_.text();
   m.hash = state_hash(state);
   if (scene.effects.joints) {
-    m.errors.constraint = peak_and_median(constraint_);
-    m.errors.joint_gap = peak_and_median(joint_gap_);
+    m.errors.constraint = constraint_.of_all();
+    m.errors.joint_gap = joint_gap_.of_all();
   }
-  if (scene.effects.contact) m.errors.penetration = peak_and_median(penetration_);
+  if (scene.effects.contact) m.errors.penetration = penetration_.of_all();
   m.errors.energy_drift = energy_ - energy_at_start_;
   if (reference_.energy_scale >= kLeastEnergyScale) {
     m.errors.energy_drift_percent = 100.0 * m.errors.energy_drift / reference_.energy_scale;
   }
-  if (!n_.empty()) {
-    m.work.n_min = *std::min_element(n_.begin(), n_.end());
-    m.work.n_median = quantile(n_, 0.5);
-    m.work.n_max = *std::max_element(n_.begin(), n_.end());
-  }
+  m.work.n_median = static_cast<int>(n_.quantile(0.5));
   if (!m.holds) {  // the distance from the reference is meaningless
     m.errors.trajectory_peak.reset();
     m.errors.trajectory_final.reset();

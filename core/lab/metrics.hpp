@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/lab/bounded_sample.hpp"
 #include "core/lab/reference.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/sim/conserved.hpp"
@@ -76,7 +77,8 @@ struct Metrics {
   std::uint64_t hash = 0;  // of the state at the end
 };
 
-/// Accumulates the metrics of a run.
+/// Accumulates the metrics of a run, in memory that does not grow with its length: medians and
+/// percentiles of more than BoundedSample::kMost frames are those of a sample.
 class Measure {
  public:
   /// @param reference must outlive this
@@ -89,6 +91,15 @@ class Measure {
   [[nodiscard]] Metrics metrics(const Scene& scene, const State& state) const;
 
  private:
+  /// Largest value, and values for the median.
+  struct Spread {
+    double peak = 0.0;
+    BoundedSample sample;
+
+    void add(double value);
+    [[nodiscard]] PeakAndMedian of_all() const;
+  };
+
   [[nodiscard]] Timing timing(const Scene& scene) const;
 
   const Reference& reference_;
@@ -99,11 +110,13 @@ class Measure {
   double energy_at_start_ = 0.0;              // [J]
   double energy_ = 0.0;                       // [J]
   std::optional<Momenta> momentum_at_start_;  // if there are no external forces
-  std::vector<double> constraint_;
-  std::vector<double> joint_gap_;
-  std::vector<double> penetration_;
-  std::vector<int> n_;
-  std::vector<double> seconds_;  // wall time by frame
+  Spread constraint_;
+  Spread joint_gap_;
+  Spread penetration_;
+  BoundedSample n_;
+  std::vector<double> first_seconds_;  // wall time of the first frames, to warm up
+  BoundedSample seconds_;              // of the others
+  double wall_ = 0.0;                  // sum of the others
 };
 
 }  // namespace substep

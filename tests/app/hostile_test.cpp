@@ -10,6 +10,7 @@
 
 #include "core/io/json.hpp"
 #include "core/model/text_checks.hpp"
+#include "tests/app/child.hpp"
 #include "tests/app/program.hpp"
 
 namespace substep {
@@ -186,6 +187,32 @@ TEST(Hostile, NamesOfScenesCannotSteerATerminal) {
       expect_refused(run, place);
       expect_harmless(run);
     }
+  }
+}
+
+/// Peak memory of a run of a ball in free flight [bytes].
+std::size_t memory_of(const char* command, const char* frames) {
+  const fs::path at = fresh();
+  std::ofstream(at / "ball.json")
+      << R"({"format": "substep-scene", "version": 2, "name": "ball", "title": "Ball",
+             "effects": [], "criteria": {"duration": 86400},
+             "bodies": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "mass": 1,
+                         "position": [0, 1, 0]}]})";
+  constexpr double kPatience = 120.0;  // [s]
+  HostileInput input;
+  input.arguments = {command, "ball.json", "--frames", frames};
+  const Ending end = run_child(SUBSTEP_PROGRAM, input, at, kPatience);
+  EXPECT_EQ(end.exit_code, 0) << end.err;
+  EXPECT_NE(end.out.find("holds"), std::string::npos) << end.out;
+  return end.memory;
+}
+
+TEST(Hostile, MemoryDoesNotGrowWithTheFrames) {
+  // Medians and percentiles need up to 16,384 values, about 1 MiB.
+  for (const char* command : {"run", "cost"}) {
+    const std::size_t less = memory_of(command, "20000");
+    const std::size_t more = memory_of(command, "400000");
+    EXPECT_LT(more, less + (std::size_t{2} << 20U)) << command;
   }
 }
 

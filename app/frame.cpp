@@ -14,6 +14,7 @@
 #include "app/shell/arrangement.hpp"
 #include "app/text/citation.hpp"
 #include "app/ui/handles.hpp"
+#include "app/ui/interface_scale.hpp"
 #include "app/ui/keys.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/vector_figure.hpp"
@@ -89,7 +90,7 @@ void take_figure(App& app) {
 class Scaled {
  public:
   explicit Scaled(App& app) : size_(ImGui::GetIO().DisplaySize), ratio_(buffer_scale()) {
-    const auto scale = static_cast<float>(app.desk.scale);
+    const float scale = ui::interface_scale(app.desk, size_);
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {size_.x / scale, size_.y / scale};
     io.DisplayFramebufferScale = {ratio_.x * scale, ratio_.y * scale};

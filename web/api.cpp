@@ -10,6 +10,7 @@
 #include "app/text/export.hpp"
 #include "app/text/introduction.hpp"
 #include "app/ui/handles.hpp"
+#include "app/ui/interface_scale.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/names.hpp"
@@ -213,6 +214,8 @@ const char* substep_report() {
   const substep::Session& s = app().session;
   const substep::FrameReport& r = s.report();
   const substep::Settings& set = s.settings();
+  const float scale = substep::ui::interface_scale(app().desk, ImGui::GetIO().DisplaySize);
+  const substep::ViewRect& v = app().view_rect;
   json out = {
       {"scene", s.scene().name},
       {"run", app().run_count},  // counts resets and loads
@@ -250,8 +253,7 @@ const char* substep_report() {
                        ? ""
                        : s.scene().bodies[static_cast<std::size_t>(app().desk.selected)].name},
       {"notice", app().notice.left > 0.0 ? app().notice.text : ""},
-      {"view",
-       {app().view_rect.x, app().view_rect.y, app().view_rect.width, app().view_rect.height}},
+      {"view", {scale * v.x, scale * v.y, scale * v.width, scale * v.height}},
       {"frame_time", app().frame_time},
       {"introduction", introduction()},
       {"tour", app().desk.tour + 1},  // step number from 1, 0 outside the tour
@@ -266,7 +268,7 @@ const char* substep_report() {
 }
 
 const char* substep_widgets() {
-  const auto scale = static_cast<float>(app().desk.scale);
+  const float scale = substep::ui::interface_scale(app().desk, ImGui::GetIO().DisplaySize);
   json list = json::array();
   for (const substep::ui::Handle& h : substep::ui::handles()) {
     list.push_back({{"group", h.group},

@@ -14,6 +14,7 @@
 #include "app/imgui/complaints.hpp"
 #include "app/ui/context.hpp"
 #include "app/ui/handles.hpp"
+#include "app/ui/interface_scale.hpp"
 #include "tests/app/ui/null_renderer.hpp"
 
 namespace substep {
@@ -76,7 +77,7 @@ class Headless {
   void press(std::string_view label) {
     const ui::Handle* handle = find_handle(label);
     ASSERT_NE(handle, nullptr) << label;
-    const auto s = static_cast<float>(app->desk.scale);
+    const float s = ui::interface_scale(app->desk, ImGui::GetIO().DisplaySize);
     click(0.5F * s * (handle->min.x + handle->max.x), 0.5F * s * (handle->min.y + handle->max.y));
   }
   void type(const char* text) {

@@ -273,6 +273,40 @@ TEST(ReadOut, FitsOnTheDisplayAndIsAsWideAsItsLines) {
   }
 }
 
+// A display too small for the interface shows all of it, smaller.
+TEST(Window, TinyDisplaysShowTheWholeInterface) {
+  struct Size {
+    float width, height;
+  };
+  for (const auto& [width, height] :
+       {Size{200, 150}, Size{320, 100}, Size{90, 400}, Size{40, 30}, Size{1, 1}}) {
+    SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
+    Headless h(width, height, 1.0F);
+    h.app->introduction.offer(*h.app);
+    h.frames(10);
+    h.app->introduction.leave(*h.app);
+    for (const char* link :
+         {"scene=pendulum", "scene=pendulum&level=explore", "scene=bridge&panel=why",
+          "scene=bridge&panel=accuracy&level=lab", "scene=heavy_stack&compare=mode:none",
+          "scene=swinging_box&mode=none", "scene=wall&tint=on&forces=on", "scene=nowhere&warp=9",
+          "tour=1", "tour=off&panels=off"}) {
+      h.app->open_link(link);
+      h.app->session.play();
+      h.frames(45);
+      for (const ImGuiWindow* w : open_windows()) {
+        EXPECT_GT(w->Size.x, 0.0F) << link << " " << w->Name;
+        EXPECT_GT(w->Size.y, 0.0F) << link << " " << w->Name;
+      }
+      EXPECT_GT(h.app->view_rect.width, 0.0F) << link;
+      EXPECT_GT(h.app->view_rect.height, 0.0F) << link;
+      EXPECT_TRUE(h.renderer->picture.view_projection.allFinite()) << link;
+      EXPECT_EQ(imgui::complaints(), h.complaints) << link;
+    }
+    // Controls are where they are drawn.
+    h.click(0.5F * width, 0.5F * height);
+  }
+}
+
 // Dear ImGui's assertions are reported in every build and end no run.
 TEST(Window, AnInvalidCallOfDearImguiIsReportedAndEndsNothing) {
   Headless h;

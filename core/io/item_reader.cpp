@@ -52,8 +52,11 @@ void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
   if (!given) {
     if (!has_mass || problems_of_shape > 0) return;
     body.inertia = solid_inertia(body.shape, body.mass);
-    if (!(body.inertia.minCoeff() > 0.0)) {
-      in.problem("inertia", "mass and shape are so small that their inertia is 0");
+    for (const double moment : body.inertia) {
+      if (kInertiaRange.contains(moment)) continue;
+      in.problem("inertia", "that of the mass and the shape " +
+                                must_be(kInertiaRange.violated_by(moment), number_text(moment)));
+      break;
     }
     return;
   }

@@ -12,17 +12,17 @@ namespace substep {
 /// One problem in data from a file or from a program.
 struct Problem {
   std::string pointer;  // JSON pointer to the place, "" for the whole document
-  std::string message;  // value and allowed range: "must be above 0 (kg), not -1"
+  std::string message;  // value and allowed range: "must be at least 1e-30 (kg), not -1"
 };
 using Problems = std::vector<Problem>;
 
 /// Limit per document. Readers stop there, so that hostile input cannot exhaust memory.
 inline constexpr std::size_t kMaxProblems = 1000;
 
-/// "/bodies/3/mass: must be above 0 (kg), not -1"
+/// "/bodies/3/mass: must be at least 1e-30 (kg), not -1"
 std::string to_string(const Problem& problem);
 
-/// The same with the location in C++ syntax: "bodies[3].mass: must be above 0 (kg), not -1"
+/// The same with the location in C++ syntax: "bodies[3].mass: must be at least 1e-30 (kg), not -1"
 std::string to_code(const Problem& problem);
 
 /// The message for an invalid value: "must be true or false, not 3".

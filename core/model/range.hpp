@@ -20,7 +20,7 @@ struct Range {
   [[nodiscard]] bool below_most(double x) const { return open_above ? x < most : x <= most; }
   [[nodiscard]] bool contains(double x) const { return above_least(x) && below_most(x); }
 
-  /// "above 0 (kg)" or "at most 1e12 (kg)": the bound that x violates.
+  /// "above 0 (s)" or "at most 1e12 (kg)": the bound that x violates.
   [[nodiscard]] std::string violated_by(double x) const {
     return (above_least(x) ? upper() : lower()) + unit_text();
   }

@@ -22,8 +22,8 @@ inline constexpr double kUnitTolerance = 1e-6;  // on the length of axes and qua
 inline constexpr Range kUnitLength{1.0 - kUnitTolerance, 1.0 + kUnitTolerance};
 
 inline constexpr Range kSizeRange = positive(1e6, "m");
-inline constexpr Range kMassRange = positive(1e12, "kg");
-inline constexpr Range kInertiaRange = positive(1e24, "kg m^2");
+inline constexpr Range kMassRange{1e-30, 1e12, false, false, "kg"};
+inline constexpr Range kInertiaRange{1e-60, 1e24, false, false, "kg m^2"};
 inline constexpr Range kPositionRange = symmetric(1e6, "m");
 inline constexpr Range kVelocityRange = symmetric(1e5, "m/s");
 inline constexpr Range kAngularVelocityRange = symmetric(1e5, "rad/s");

@@ -47,8 +47,8 @@ bool is_runnable(const Scene& scene);
 /// Whether a state has an item for every body of the scene: pose, and both velocities.
 bool fits(const State& state, const Scene& scene);
 
-/// The reason to refuse a scene, or nothing: "the scene is invalid: bodies[1].mass: must be above 0
-/// (kg), not 0". @param scene may be null
+/// The reason to refuse a scene, or nothing: "the scene is invalid: bodies[1].mass: must be at
+/// least 1e-30 (kg), not 0". @param scene may be null
 std::optional<std::string> refusal_of(const Scene* scene);
 
 /// The scene, or if it is null one that every run refuses. @return never null

@@ -32,7 +32,7 @@ TEST(SceneReader, ReportsAllProblemsAtOnce) {
             (List{"/bodies/2/shape/radius: 1e999 is beyond the range of numbers (1.8e308)",
                   "/settings/alpha: the key occurs twice in this object",
                   "/bodies/0/shape/type: must be sphere, box or plane, not \"disc\"",
-                  "/bodies/1/mass: must be above 0 (kg), not -2",
+                  "/bodies/1/mass: must be at least 1e-30 (kg), not -2",
                   "/criteria/trakc: unknown key (did you mean \"track\"?)",
                   "/joints/1/a: no body is called \"bal\" (did you mean \"ball\"?)"}));
 }
@@ -135,7 +135,7 @@ TEST(SceneReader, ReadingInPartsGivesTheSameScene) {
   EXPECT_EQ(write_scene(*result.scene), write_scene(*read_scene(good).scene));
   EXPECT_EQ(result.scene->bodies.size(), 4500U);
   EXPECT_EQ(problems_of(text_of(2500, -1.0)),
-            List{"/bodies/2499/mass: must be above 0 (kg), not -1"});
+            List{"/bodies/2499/mass: must be at least 1e-30 (kg), not -1"});
 }
 
 /// The valid scene with a slider instead of its hinge.

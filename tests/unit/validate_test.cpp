@@ -178,7 +178,7 @@ TEST(Validate, NamesThePlaceInCodeSyntax) {
             "joints[1].b: must be the index of a body, from 0 to 3, or -1 for the world, not 77\n");
   scene = sound_scene();
   scene.bodies[1].mass = 0.0;
-  EXPECT_EQ(texts(validate(scene)), "bodies[1].mass: must be above 0 (kg), not 0\n");
+  EXPECT_EQ(texts(validate(scene)), "bodies[1].mass: must be at least 1e-30 (kg), not 0\n");
 }
 
 TEST(Validate, ReportsAtMostAThousandProblems) {

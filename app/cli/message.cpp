@@ -1,22 +1,11 @@
 #include "app/cli/message.hpp"
 
 #include <cstdarg>
-#include <string_view>
+#include <string>
 
 #include "core/model/format_text.hpp"
 
 namespace substep::cli {
-
-std::string visible_lines(std::string_view text) {
-  std::string shown;
-  for (;;) {
-    const std::size_t end = text.find('\n');
-    shown += visible_text(text.substr(0, end));
-    if (end == std::string_view::npos) return shown;
-    shown += '\n';
-    text.remove_prefix(end + 1);
-  }
-}
 
 void complain(const char* pattern, ...) {
   std::va_list values;

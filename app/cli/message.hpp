@@ -3,15 +3,10 @@
 // terminal.
 
 #include <cstdio>
-#include <string>
-#include <string_view>
 
 #include "core/model/text_checks.hpp"
 
 namespace substep::cli {
-
-/// Lines of text, each of them visible_text().
-std::string visible_lines(std::string_view text);
 
 /// Prints a line on standard error, like printf; adds the line feed. The line is visible_text().
 [[gnu::format(printf, 1, 2)]] void complain(const char* pattern, ...);

@@ -23,6 +23,7 @@
 #include "app/shell/arrangement.hpp"
 #include "app/ui/context.hpp"
 #include "core/model/setting_fields.hpp"
+#include "core/model/text_checks.hpp"
 
 namespace substep {
 namespace {
@@ -159,8 +160,9 @@ int run(const Options& options) {
     Library library(options.scenes);
     if (!library.scenes().empty()) add_exam(library);
     if (!renderer || library.scenes().empty()) {
-      std::fprintf(stderr, "substep: %s\n",
-                   renderer ? ("no scenes in " + options.scenes).c_str() : error.c_str());
+      std::fprintf(
+          stderr, "substep: %s\n",
+          renderer ? visible_text("no scenes in " + options.scenes).c_str() : error.c_str());
       renderer.reset();  // while its context exists
       ImGui_ImplGlfw_Shutdown();
       glfwTerminate();
@@ -176,7 +178,7 @@ int run(const Options& options) {
     listen(window.handle);
     const std::string problem = apply(options, app);
     if (!problem.empty()) {
-      std::fprintf(stderr, "substep: %s", problem.c_str());
+      std::fprintf(stderr, "substep: %s", visible_lines(problem).c_str());
       status = 2;
     }
 
@@ -204,7 +206,8 @@ int run(const Options& options) {
       host.after_frame(width, height);
       if (!options.screenshot.empty() && i + 1 >= options.frames) {
         if (!write_file(options.screenshot, picture_of(app, width, height))) {
-          std::fprintf(stderr, "substep: %s could not be written\n", options.screenshot.c_str());
+          std::fprintf(stderr, "substep: %s could not be written\n",
+                       visible_text(options.screenshot).c_str());
           status = 2;
         }
         break;
@@ -254,7 +257,7 @@ int start(int argc, char** argv) {
       options.width < 200 || options.height < 200 || options.width > 8192 ||
       options.height > 8192) {
     std::fprintf(stderr, "substep: --size: must be WxH, each from 200 to 8192, not %s\n",
-                 size.c_str());
+                 visible_text(size).c_str());
     return 2;
   }
   return run(options);

@@ -7,6 +7,7 @@
 #include "core/math/random.hpp"
 #include "core/model/names.hpp"
 #include "core/model/scene_limits.hpp"
+#include "core/model/validate.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep {
@@ -54,6 +55,7 @@ void nudge(int seed, Scene& scene) {
 
 Scene start_of(const Scene& scene, double load, int seed) {
   Scene start = scene;
+  if (!is_runnable(scene)) return start;
   if (load != 1.0 || seed != 0) start.carried.reset();  // it was of other masses and velocities
   if (load != 1.0) apply_load(load, start);
   if (seed != 0) nudge(seed, start);
@@ -68,11 +70,12 @@ double mass_ratio(const Scene& scene) {
     most = std::max(most, body.mass);
     least = std::min(least, body.mass);
   }
-  return most > 0.0 ? most / least : 1.0;
+  return most > 0.0 && least > 0.0 ? most / least : 1.0;
 }
 
 std::int64_t frames_of(const Scene& scene, double duration) {
   constexpr double kMost = 1e15;
+  if (!(scene.frame > 0.0)) return 0;
   const double frames = duration / scene.frame;
   if (!std::isfinite(frames)) return 0;
   return std::llround(std::clamp(frames, 0.0, kMost));

@@ -24,7 +24,7 @@ struct Experiment {
 /// The initial scene of an experiment, unchanged for load 1 and seed 0. A load scales mass and
 /// inertia of the heaviest body, and the energies of the criteria. A seed perturbs the velocity of
 /// every moving body by up to 1e-9 m/s per axis, far below all measured errors: differences between
-/// seeds are then due to rounding.
+/// seeds are then due to rounding. A scene that cannot run is unchanged.
 Scene start_of(const Scene& scene, double load, int seed);
 
 /// Mass of the heaviest moving body over that of the lightest [-].

@@ -49,6 +49,7 @@ EnergyWatch::EnergyWatch(const Scene& scene, const FrameReport& start)
       potential_{start.potential, start.potential},
       elastic_{start.elastic, start.elastic},
       parts_(start.inside > kParted) {
+  if (!is_runnable(scene)) return;
   double weight = 0.0;
   int moving = 0;
   for (const Body& body : scene.bodies) {

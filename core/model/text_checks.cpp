@@ -110,4 +110,15 @@ std::string visible_text(std::string_view text) {
   return shown;
 }
 
+std::string visible_lines(std::string_view text) {
+  std::string shown;
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    shown += visible_text(text.substr(0, end));
+    if (end == std::string_view::npos) return shown;
+    shown += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
 }  // namespace substep

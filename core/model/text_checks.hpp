@@ -20,4 +20,7 @@ std::optional<std::string> text_fault(std::string_view text);
 /// escaped, as in "\x1b". The rest is unchanged.
 std::string visible_text(std::string_view text);
 
+/// Lines of text, each of them visible_text().
+std::string visible_lines(std::string_view text);
+
 }  // namespace substep

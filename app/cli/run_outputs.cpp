@@ -76,7 +76,8 @@ void RunFiles::add_to(CLI::App& command) {
   command
       .add_option("--joints", joints,
                   "write force and torque of every joint on its body a, a line per joint and "
-                  "frame: of the frame's last sub-step, about the anchor on a, world axes")
+                  "frame: of the frame's last sub-step, about the anchor on a, world axes, at "
+                  "force_time")
       ->check(named());
 }
 

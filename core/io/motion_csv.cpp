@@ -21,6 +21,18 @@ Vec3 anchor(const State& state, int body, const Vec3& local) {
   return body == kWorld ? local : Vec3(state.x[index(body)] + state.q[index(body)] * local);
 }
 
+/// Distance of the anchors [m], without the travel of a slide.
+double gap_of(const State& state, const Joint& joint) {
+  const JointBase& sides = base(joint);
+  Vec3 gap = anchor(state, sides.a, sides.anchor_a) - anchor(state, sides.b, sides.anchor_b);
+  if (const auto* slide = std::get_if<PrismaticJoint>(&joint)) {
+    const Vec3 axis =
+        slide->b == kWorld ? slide->axis_b : Vec3(state.q[index(slide->b)] * slide->axis_b);
+    gap -= axis * axis.dot(gap);
+  }
+  return gap.norm();
+}
+
 }  // namespace
 
 std::string states_header() { return "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n"; }
@@ -40,7 +52,7 @@ std::string states_lines(const Scene& scene, const State& state) {
   return lines;
 }
 
-std::string joints_header() { return "frame,time,joint,fx,fy,fz,tx,ty,tz,gap\n"; }
+std::string joints_header() { return "frame,time,joint,fx,fy,fz,tx,ty,tz,gap,force_time\n"; }
 
 std::string joints_lines(const Scene& scene, const State& state, const ConstraintForces& forces) {
   const Vec3 unknown = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -52,9 +64,8 @@ std::string joints_lines(const Scene& scene, const State& state, const Constrain
     lines += start_of_line(state, joint.name);
     add(lines, known ? forces.joints[i].force : unknown);
     add(lines, known ? forces.joints[i].torque : unknown);
-    const Vec3 gap =
-        anchor(state, joint.a, joint.anchor_a) - anchor(state, joint.b, joint.anchor_b);
-    lines += ',' + csv_number(gap.norm()) + '\n';
+    lines += ',' + csv_number(gap_of(state, scene.joints[i]));
+    lines += ',' + csv_number(known ? forces.joints[i].time : unknown[0]) + '\n';
   }
   return lines;
 }

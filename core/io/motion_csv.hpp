@@ -17,12 +17,13 @@ std::string states_header();
 /// [m/s] and angular velocity [rad/s] at the time of the pose.
 std::string states_lines(const Scene& scene, const State& state);
 
-/// "frame,time,joint,fx,fy,fz,tx,ty,tz,gap" and a line feed.
+/// "frame,time,joint,fx,fy,fz,tx,ty,tz,gap,force_time" and a line feed.
 std::string joints_header();
 
 /// A line for each joint of the scene: the force on its body a [N], which acts at the anchor on a,
-/// and the torque about that anchor [N m], both of the last sub-step, and the distance of the two
-/// anchors [m] in the state. "nan" if no sub-step has solved for the joint (both sides asleep).
+/// and the torque about that anchor [N m], both of the last sub-step; the distance of the two
+/// anchors [m] in the state, without the travel of a slide; and the time to which the force belongs
+/// [s]. "nan" if no sub-step has solved for the joint (both sides asleep).
 std::string joints_lines(const Scene& scene, const State& state, const ConstraintForces& forces);
 
 }  // namespace substep

@@ -11,6 +11,7 @@ namespace substep {
 struct JointForce {
   Vec3 force = Vec3::Zero();   // acts at the anchor on a [N]
   Vec3 torque = Vec3::Zero();  // about that anchor, from a hinge's angular rows [N m]
+  double time = 0.0;           // to which it belongs [s]
   bool known = false;          // false if the last sub-step did not solve for it (sleeping bodies)
 };
 
@@ -24,7 +25,10 @@ struct ContactForce {
   double gap = 0.0;            // [m]
 };
 
-/// Constraint forces of the last sub-step: means over it, along the rows at its start.
+/// Constraint forces of the last sub-step, to the order of the integrator: those at its start,
+/// along the rows at its start; with Newton's forces `end` and with XPBD those at its end. With
+/// drift laws other than `exact`, the part of Euler's force that turns the velocity (centripetal)
+/// is that of the sub-step before, and is missing in the first.
 struct ConstraintForces {
   std::vector<JointForce> joints;  // as in Scene::joints; empty before the first sub-step
   std::vector<ContactForce> contacts;

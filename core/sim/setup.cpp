@@ -110,8 +110,24 @@ void Simulator::set_grab(const std::optional<Grab>& grab) {
 }
 const std::optional<Grab>& Simulator::grab() const { return impl_->grab; }
 
+namespace {
+
+/// The longer of the last sub-steps of a joint's bodies [s].
+double longest_sub_step(const Block& joint, const State& state) {
+  double dt = 0.0;
+  for (const int body : {joint.a, joint.b}) {
+    if (body >= 0) dt = std::max(dt, state.dt_previous_of(index(body)));
+  }
+  return dt;
+}
+
+}  // namespace
+
 ConstraintForces Simulator::constraint_forces() const {
   ConstraintForces out;
+  const Settings& by = impl_->settings;
+  const bool acts_at_end = entry_of(by.solver).at_end &&
+                           !(by.solver == SolverKind::kNewton && by.forces != Forces::kEnd);
   for (const Block& block : impl_->blocks.all()) {
     double lambda[kMaxRows];
     find_lambda(impl_->current, block, lambda);
@@ -123,6 +139,8 @@ ConstraintForces Simulator::constraint_forces() const {
       out.joints.resize(impl_->scene->joints.size());
       JointForce& force = out.joints[static_cast<std::size_t>(block.id)];
       force.known = true;
+      force.time = impl_->state.time;
+      if (!acts_at_end) force.time -= longest_sub_step(block, impl_->state);
       with_joint_rows(block.kind, [&](auto rows) {
         force.force = rows.force(block, lambda);
         force.torque = rows.torque(block, lambda);

@@ -115,7 +115,7 @@ TEST(CommandLine, StatesAndJointsHaveEveryBodyAndFrameInFullPrecision) {
   const std::vector<std::string> poses = lines_of(text_of(states));
   const std::vector<std::string> forces = lines_of(text_of(joints));
   EXPECT_EQ(poses[0], "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
-  EXPECT_EQ(forces[0], "frame,time,joint,fx,fy,fz,tx,ty,tz,gap");
+  EXPECT_EQ(forces[0], "frame,time,joint,fx,fy,fz,tx,ty,tz,gap,force_time");
   const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json").scene;
   ASSERT_NE(scene, nullptr);
   ASSERT_EQ(poses.size(), 1 + 4 * scene->bodies.size()) << "the start and the floor are included";

@@ -6,10 +6,12 @@
 
 #include <sstream>
 
+#include "core/model/names.hpp"
 #include "core/model/number_text.hpp"
 #include "core/sim/conserved.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/support/run.hpp"
+#include "tests/support/steady_settings.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -48,13 +50,72 @@ TEST(MotionCsv, NamesAreQuotedAndNumbersAreExact) {
   const Scene scene = cantilever();
   Simulator simulator = simulator_of(scene, {.mode = Mode::kConst, .n = 4});
   EXPECT_EQ(joints_lines(scene, simulator.state(), simulator.constraint_forces()),
-            "0,0,\"root, \"\"left\"\"\",nan,nan,nan,nan,nan,nan,0\n")
+            "0,0,\"root, \"\"left\"\"\",nan,nan,nan,nan,nan,nan,0,nan\n")
       << "before the first sub-step no force is known";
   const FrameReport report = simulator.step();
   EXPECT_EQ(joints_lines(scene, simulator.state(), simulator.constraint_forces())
                 .find("1," + number_text(report.time) + ",\"root, \"\"left\"\"\","),
             0U);
   EXPECT_EQ(states_lines(scene, initial_state(scene)), "0,0,beam,1,2,3.5,1,0,0,0,0,0,0,0,0,0\n");
+}
+
+// A ball on a rod of 0.5 m: without gravity the force points from it to the anchor.
+TEST(MotionCsv, JointForcesSayTheTimeToWhichTheyBelong) {
+  Scene scene;
+  scene.effects.joints = true;
+  scene.bodies = {moving(Sphere{0.1}, 2.0)};
+  scene.bodies[0].position = {0.5, 0.0, 0.0};
+  scene.bodies[0].velocity = {0.0, 1.0, 0.0};
+  scene.bodies[0].angular_velocity = {0.0, 0.0, 2.0};
+  BallJoint ball;
+  ball.a = 0;
+  ball.anchor_a = {-0.5, 0.0, 0.0};
+  scene.joints.emplace_back(ball);
+  struct Method {
+    SolverKind solver;
+    Forces forces;
+    bool at_end;
+  };
+  constexpr Method kMethods[] = {
+      {SolverKind::kBpp, Forces::kEnd, false},     {SolverKind::kPgs, Forces::kEnd, false},
+      {SolverKind::kNewton, Forces::kMean, false}, {SolverKind::kNewton, Forces::kNumerov, false},
+      {SolverKind::kNewton, Forces::kEnd, true},   {SolverKind::kXpbd, Forces::kEnd, true}};
+  for (const Method& method : kMethods) {
+    for (const Integrator integrator :
+         {Integrator::kEuler, Integrator::kLeapfrog, Integrator::kStormer}) {
+      substep::Settings settings = steady_at(1);
+      settings.solver = method.solver;
+      settings.forces = method.forces;
+      settings.integrator = integrator;
+      Simulator simulator = simulator_of(scene, settings);
+      const double turned = 2.0 * scene.frame;
+      for (int frame = 0; frame < 20; ++frame) {
+        const State before = simulator.state();
+        simulator.step();
+        const State& then = method.at_end ? simulator.state() : before;
+        const JointForce force = simulator.constraint_forces().joints.at(0);
+        EXPECT_NEAR(force.time, then.time, 1e-12) << frame;
+        const double off = force.force.normalized().cross(then.x[0].normalized()).norm();
+        EXPECT_LT(off, turned * turned)
+            << frame << " " << name_of(method.solver) << " " << name_of(integrator);
+      }
+    }
+  }
+}
+
+TEST(MotionCsv, TheGapOfASlideIsNotItsTravel) {
+  Scene scene;
+  scene.effects.joints = true;
+  scene.bodies = {moving(Sphere{0.1})};
+  scene.bodies[0].position = {0.3, 0.4, 0.0};
+  PrismaticJoint slide;
+  slide.name = "slide";
+  slide.a = 0;
+  slide.axis_a = slide.axis_b = Vec3::UnitX();
+  slide.across_a = slide.across_b = Vec3::UnitY();
+  scene.joints.emplace_back(slide);
+  EXPECT_EQ(joints_lines(scene, initial_state(scene), {}),
+            "0,0,slide,nan,nan,nan,nan,nan,nan,0.4,nan\n");
 }
 
 TEST(MotionCsv, VelocitiesAreThoseAtTheTimeOfThePoses) {

@@ -187,8 +187,8 @@ int merge(const MergeOptions& options) {
       scene ? plan_of(*scene, file.results()) : std::vector<std::string>();
   if (!file.finish(plan)) return kBadInput;
   if (!options.quiet) {
-    std::printf("%zu runs from %zu parts\nresults  %s\n", file.size(), parts.size(),
-                (folder / "results.jsonl").string().c_str());
+    say(stdout, "%zu runs from %zu parts\nresults  %s\n", file.size(), parts.size(),
+        visible_text((folder / "results.jsonl").string()).c_str());
   }
   return write_sweep_report(folder, scene, file.results(), options.quiet) ? kOk : kBadInput;
 }

@@ -109,11 +109,11 @@ void print_failed(std::FILE* words, const Question& question, const Answer& answ
   const char* which = question.want.error_is_given ? "Cheaper" : "More accurate";
   for (std::size_t i = 0; i < std::min(failed, kShown); ++i) {
     const Result& result = answer.failed[i];
-    std::fprintf(words, "%s, but no recommendation: %s %s\n", which, method_text(result).c_str(),
-                 why_not(result, question.want.error).c_str());
+    say(words, "%s, but no recommendation: %s %s\n", which, method_text(result).c_str(),
+        why_not(result, question.want.error).c_str());
   }
   if (failed > kShown) {
-    std::fprintf(words, "%zu more do not hold for %g s.\n", failed - kShown, question.whole);
+    say(words, "%zu more do not hold for %g s.\n", failed - kShown, question.whole);
   }
 }
 
@@ -122,40 +122,36 @@ void print_best(std::FILE* words, const Question& question, const Answer& answer
   const Want& want = question.want;
   const auto held = std::count_if(answer.results.begin(), answer.results.end(),
                                   [](const Result& r) { return r.metrics.holds; });
-  std::fprintf(words, "%s: %td of %zu runs hold for %g s. Error: %s.\n",
-               question.scene->name.c_str(), held, answer.results.size(), question.compared,
-               axis_name(want.error));
+  say(words, "%s: %td of %zu runs hold for %g s. Error: %s.\n", question.scene->name.c_str(), held,
+      answer.results.size(), question.compared, axis_name(want.error));
   print_failed(words, question, answer);
   const Result* best = answer.best();
   if (best == nullptr) {
     if (answer.candidates.empty()) {
-      std::fprintf(words, "No method meets %s.", limit_text(want).c_str());
+      say(words, "No method meets %s.", limit_text(want).c_str());
       if (answer.nearest) {
-        std::fprintf(words, " The nearest: %s: %s", method_text(*answer.nearest).c_str(),
-                     figures(*answer.nearest, want.error).c_str());
+        say(words, " The nearest: %s: %s", method_text(*answer.nearest).c_str(),
+            figures(*answer.nearest, want.error).c_str());
       }
       std::fputc('\n', words);
     } else {
-      std::fprintf(words, "None of the %zu runs tried within %s (of %zu) holds for %g s.\n",
-                   answer.failed.size(), limit_text(want).c_str(), answer.candidates.size(),
-                   question.whole);
+      say(words, "None of the %zu runs tried within %s (of %zu) holds for %g s.\n",
+          answer.failed.size(), limit_text(want).c_str(), answer.candidates.size(), question.whole);
     }
     return;
   }
-  std::fprintf(words, "%s within %s: %s: %s\n",
-               want.error_is_given ? "The cheapest" : "The most accurate", limit_text(want).c_str(),
-               method_text(*best).c_str(), figures(*best, want.error).c_str());
-  std::fprintf(words, "  It holds for %g s.", question.whole);
+  say(words, "%s within %s: %s: %s\n", want.error_is_given ? "The cheapest" : "The most accurate",
+      limit_text(want).c_str(), method_text(*best).c_str(), figures(*best, want.error).c_str());
+  say(words, "  It holds for %g s.", question.whole);
   if (question.compared < question.whole) {
-    std::fprintf(words, " Errors and costs are those of the first %g s.", question.compared);
+    say(words, " Errors and costs are those of the first %g s.", question.compared);
   }
   const double least = kTimesAsCertain * answer.reference.uncertainty;
   if (want.of_path() && !want.error_is_given && error_of(*best, want.error) < least) {
-    std::fprintf(words, " Errors below %.3g m are not promised: the reference is uncertain.",
-                 least);
+    say(words, " Errors below %.3g m are not promised: the reference is uncertain.", least);
   }
-  std::fprintf(words, "\n  substep run %s%s\n", scene.c_str(),
-               setting_flags(best->experiment.settings, question.scene->settings).c_str());
+  say(words, "\n  substep run %s%s\n", scene.c_str(),
+      setting_flags(best->experiment.settings, question.scene->settings).c_str());
 }
 
 /// @return false if cancelled
@@ -174,17 +170,16 @@ bool print_alpha(std::FILE* words, const Question& question, const Reference& re
   }
   const std::optional<AlphaChoice>& choice = search.choice();
   if (!choice) {
-    std::fprintf(words, "The paper's method: no alpha from %g to 1 meets the limit.\n",
-                 AlphaSearch::kLeast);
+    say(words, "The paper's method: no alpha from %g to 1 meets the limit.\n", AlphaSearch::kLeast);
     return true;
   }
   const auto whole = searched(question, {choice->result}, reference);
   if (!whole) return false;
-  std::fprintf(words, "The paper's method: the %s alpha that meets the limit is %.3g, %s\n",
-               want.error_is_given ? "largest" : "smallest", choice->alpha,
-               figures(choice->result, want.error).c_str());
+  say(words, "The paper's method: the %s alpha that meets the limit is %.3g, %s\n",
+      want.error_is_given ? "largest" : "smallest", choice->alpha,
+      figures(choice->result, want.error).c_str());
   for (const Result& result : whole->failed()) {
-    std::fprintf(words, "  It %s\n", why_not(result, want.error).c_str());
+    say(words, "  It %s\n", why_not(result, want.error).c_str());
   }
   return true;
 }
@@ -201,15 +196,15 @@ std::shared_ptr<const Scene> with_comparable(std::shared_ptr<const Scene> scene,
     Scene tracking = *scene;
     tracking.criteria.track = survey.farthest();
     scene = std::make_shared<const Scene>(std::move(tracking));
-    std::fprintf(words, "No body is tracked: the path of '%s' is compared.\n",
-                 scene->bodies[index(*survey.farthest())].name.c_str());
+    say(words, "No body is tracked: the path of '%s' is compared.\n",
+        scene->bodies[index(*survey.farthest())].name.c_str());
   }
   const std::string changes = energy_changes_by(*scene, survey.touches());
   if (want.error == ErrorAxis::kEnergy && !changes.empty()) {
-    std::fprintf(words,
-                 "The true motion does not keep its energy (%s): less drift is not less error. "
-                 "--of path compares motions.\n",
-                 changes.c_str());
+    say(words,
+        "The true motion does not keep its energy (%s): less drift is not less error. "
+        "--of path compares motions.\n",
+        changes.c_str());
   }
   return scene;
 }
@@ -218,13 +213,13 @@ std::shared_ptr<const Scene> with_comparable(std::shared_ptr<const Scene> scene,
 void print_uncertain(std::FILE* words, const Reference& reference, double promised) {
   const std::string source = "The reference (" + reference.source + ")";
   if (!reference.failure.empty()) {
-    std::fprintf(words, "%s %s. ", source.c_str(), reference.failure.c_str());
+    say(words, "%s %s. ", source.c_str(), reference.failure.c_str());
   } else {
-    std::fprintf(words, "%s is uncertain by %.3g m", source.c_str(), reference.uncertainty);
+    say(words, "%s is uncertain by %.3g m", source.c_str(), reference.uncertainty);
     std::fputs(std::isfinite(promised) ? ", so " : ". ", words);
   }
   if (std::isfinite(promised)) {
-    std::fprintf(words, "errors below %.3g m are not promised.\n", promised);
+    say(words, "errors below %.3g m are not promised.\n", promised);
   } else {
     std::fputs("No error of the path can be promised: --of gap or overlap.\n", words);
   }
@@ -269,8 +264,8 @@ int recommend(const RecommendOptions& options) {
     if (!write_file(options.out, write_scene(with))) return kBadInput;
   }
   if (answer->found && !promised && !options.out.empty()) {
-    std::fprintf(words, "%s is not written: --error %.3g stores this one.\n", options.out.c_str(),
-                 want.limit);
+    say(words, "%s is not written: --error %.3g stores this one.\n",
+        visible_text(options.out).c_str(), want.limit);
   }
   if (!print_alpha(words, question, answer->reference)) return kCancelled;
   return answer->found && promised ? kOk : kUnexpectedVerdict;

@@ -210,9 +210,9 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   }
   if (!file.finish(order)) return kBadInput;
   if (!options.quiet) {
-    std::printf("%s: %zu runs, %zu of the new ones failed, %.1f s\n", scene->name.c_str(),
-                file.size(), failed.load(), seconds());
-    std::printf("results  %s\n", (folder / name).string().c_str());
+    say(stdout, "%s: %zu runs, %zu of the new ones failed, %.1f s\n", scene->name.c_str(),
+        file.size(), failed.load(), seconds());
+    say(stdout, "results  %s\n", visible_text((folder / name).string()).c_str());
   }
   if (shard.count > 1) return kOk;  // `merge` writes the report for all parts
   return write_sweep_report(folder, scene, file.results(), options.quiet) ? kOk : kBadInput;

@@ -217,8 +217,7 @@ TEST(Hostile, MemoryDoesNotGrowWithTheFrames) {
 }
 
 /// Runs a command and sends it a signal after a delay. The shell would start it with SIGINT
-/// ignored. @return its outcome, and the time from the
-/// signal to its end [s]
+/// ignored. @return its outcome, and the time from the signal to its end [s]
 std::pair<Outcome, double> interrupted_once(const std::string& command, const char* signal) {
   const fs::path took = folder() / "took";
   const Outcome run = substep(

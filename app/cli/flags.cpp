@@ -10,7 +10,7 @@
 namespace substep::cli {
 namespace {
 
-constexpr const char* kGroup = "Settings (default: those of the scene)";
+constexpr const char* kSettingsGroup = "Settings (default: those of the scene)";
 
 bool is_flag(const SettingField& field) {
   return std::holds_alternative<FlagSetting>(field.member);
@@ -87,7 +87,7 @@ void SettingsFlags::add_preset(CLI::App& command) {
           "All settings at once, before the others; `recommended` is the scene's own if it has "
           "one")
       ->type_name(preset_names())
-      ->group(kGroup);
+      ->group(kSettingsGroup);
 }
 
 void SettingsFlags::add_flag(CLI::App& command, const SettingField& field) {
@@ -104,7 +104,7 @@ void SettingsFlags::add_flag(CLI::App& command, const SettingField& field) {
           help_of(field))
       ->each(one_of_both)
       ->disable_flag_override()  // the library accepts any text after '=', and throws
-      ->group(kGroup);
+      ->group(kSettingsGroup);
 }
 
 void SettingsFlags::add_value(CLI::App& command, const SettingField& field) {
@@ -113,7 +113,7 @@ void SettingsFlags::add_value(CLI::App& command, const SettingField& field) {
           "--" + flag_name(field), [this, &field](const std::string& text) { take(field, text); },
           help_of(field))
       ->type_name(allowed_values(field))
-      ->group(kGroup);
+      ->group(kSettingsGroup);
 }
 
 void SettingsFlags::take(const SettingField& field, const std::string& text) {
@@ -156,17 +156,18 @@ void refuse_beside(const CLI::App& command, const std::string& flag,
 }
 
 void BudgetFlags::add_to(CLI::App& command) {
-  constexpr const char* kGroup = "Budget (a run that exceeds it stops and reports the reason)";
+  constexpr const char* kBudgetGroup =
+      "Budget (a run that exceeds it stops and reports the reason)";
   command
       .add_option("--memory-budget", mebibytes_,
                   "maximum memory of the direct solver [MiB]; default 512")
       ->check(within(kMemoryBudgetRange.least / kMebibyte, kMemoryBudgetRange.most / kMebibyte))
-      ->group(kGroup);
+      ->group(kBudgetGroup);
   command
       .add_option("--work-budget", operations_,
                   "maximum of floating-point operations per frame; default 2e10")
       ->check(within(kWorkBudgetRange.least, kWorkBudgetRange.most))
-      ->group(kGroup);
+      ->group(kBudgetGroup);
 }
 
 Budget BudgetFlags::budget() const { return {mebibytes_ * kMebibyte, operations_}; }

@@ -94,6 +94,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (...) {
     // Other exceptions are unexpected.
   }
+  std::set_new_handler(nullptr);  // it would end the outputs again
   end_outputs(false);
   complain("substep: ended by an unexpected error");
   std::_Exit(kInternalError);

@@ -70,6 +70,7 @@ bool read_part(const std::string& path, std::string& text) {
       return false;
     }
     text += line + '\n';
+    if (reading == Reading::kCut) return true;
   }
   complain("%s: %s", path.c_str(), std::strerror(errno));
   return false;

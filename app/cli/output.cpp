@@ -114,6 +114,7 @@ bool Output::open_beside() {
   if (error) return fail(error.value());
   if (target.filename().empty()) return fail(EISDIR);
   target_ = target.string();
+  is_beside_ = true;
   const auto old = about(target_);
   if (old && ::access(target_.c_str(), W_OK) != 0) return fail(errno);
   constexpr int kMostTries = 1000;  // names that a killed program with this process id has left
@@ -156,15 +157,20 @@ void Output::keep_if_ended(std::string ending) {
 }
 
 bool Output::close() {
-  if (!file_) return true;
-  if (file_ == stdout) {
+  bool standard = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!file_) return true;
+    standard = file_ == stdout;
+  }
+  if (standard) {
     discard();
     return flush_standard_output() && !failed();
   }
   {
     const auto committing = commit_if_beside();
     const std::lock_guard lock(mutex_);
-    finish();
+    if (file_) finish();  // unless end_outputs() has done so
   }
   discard();
   if (!failed()) return true;
@@ -202,14 +208,14 @@ void Output::discard() {
 
 /// Not for a pipe, which may block: it has nothing to commit.
 std::unique_lock<std::mutex> Output::commit_if_beside() const {
-  return temporary_.empty() ? std::unique_lock<std::mutex>() : commit();
+  return is_beside_ ? commit() : std::unique_lock<std::mutex>();
 }
 
 /// Part of end_outputs().
 void Output::end(bool keep) {
   constexpr std::chrono::milliseconds kWait{20};  // a write may block on a pipe indefinitely
   std::unique_lock lock(mutex_, std::defer_lock);
-  if (temporary_.empty()) {
+  if (!is_beside_) {
     if (!lock.try_lock_for(kWait)) return;
   } else {
     lock.lock();

@@ -45,7 +45,8 @@ class Output {
 
   std::string path_;        // as given
   std::string target_;      // with links resolved
-  std::string temporary_;   // empty: written directly
+  bool is_beside_ = false;  // written to a new file beside the target
+  std::string temporary_;   // its name; empty once it is renamed
   Output* next_ = nullptr;  // in the list of open outputs
   std::timed_mutex mutex_;  // of the members below
   std::FILE* file_ = nullptr;

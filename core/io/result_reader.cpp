@@ -35,24 +35,23 @@ struct Field {
 
 constexpr double kMostCount = 9007199254740992.0;  // 2^53: doubles count exactly up to it
 constexpr Range kAnyCount{0.0, kMostCount};
-constexpr Range kSubsteps{0.0, 1e6};  // of a frame
+constexpr Range kSubstepsOfFrame{0.0, 1e6};  // of a frame
 constexpr Range kAny;
 constexpr Range kNotNegative{.least = 0.0};
-constexpr Range kFailureTime{0.0, kDurationRange.most + kFrameRange.most, false, false, "s"};
 
 // An object precedes its members.
-constexpr Field kFields[] = {
+constexpr Field kResultFields[] = {
     {"", "id", Type::kHash},
     {"", "scene", Type::kText},
     {"", "scene_hash", Type::kHash},
     {"", "settings", Type::kObject},
-    {"", "seconds", Type::kNumber, kDurationRange},
+    {"", "seconds", Type::kNumber, kNotNegative},
     {"", "load", Type::kNumber, kLoadRange},
     {"", "seed", Type::kCount, {0.0, kMostSeed}},
     {"", "series", Type::kText},
     {"", "parameter", Type::kObject},
     {"", "holds", Type::kFlag},
-    {"", "failed_at", Type::kNumber, kFailureTime, kOptional},
+    {"", "failed_at", Type::kNumber, kNotNegative, kOptional},
     {"", "verdict", Type::kText},
     {"", "hash", Type::kHash},
     {"", "errors", Type::kObject},
@@ -92,9 +91,9 @@ constexpr Field kFields[] = {
     {"work", "unsettled", Type::kCount, kAnyCount},
     {"work", "unsolved", Type::kCount, kAnyCount},
     {"work", "flops", Type::kCount, kAnyCount},
-    {"work", "n_min", Type::kCount, kSubsteps},
-    {"work", "n_median", Type::kCount, kSubsteps},
-    {"work", "n_max", Type::kCount, kSubsteps},
+    {"work", "n_min", Type::kCount, kSubstepsOfFrame},
+    {"work", "n_median", Type::kCount, kSubstepsOfFrame},
+    {"work", "n_max", Type::kCount, kSubstepsOfFrame},
     // Files of older versions lack these.
     {"work", "visits", Type::kCount, kAnyCount, kOptional},
     {"work", "rows", Type::kObject, kAny, kOptional},
@@ -164,14 +163,14 @@ void check_fields(const Json& line, Problems& problems) {
   const bool failed = line.is_object() && line.contains("holds") && line["holds"] == false;
   const auto check_part = [&](std::string_view part, const Json& json) {
     ObjectReader in(json, part.empty() ? "" : '/' + std::string(part), problems);
-    for (const Field& field : kFields) {
+    for (const Field& field : kResultFields) {
       if (field.part == part) check(field, failed, in);
     }
     in.finish();
   };
   check_part("", line);
   if (!problems.empty()) return;
-  for (const Field& field : kFields) {
+  for (const Field& field : kResultFields) {
     if (field.type != Type::kObject || field.name == "settings") continue;
     std::string path(field.part);
     path += (path.empty() ? "" : "/") + std::string(field.name);

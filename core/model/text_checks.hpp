@@ -9,11 +9,11 @@
 namespace substep {
 
 /// The fault of a text, or nothing: " has a control character (U+0007)" after the text itself. A
-/// text is one line of valid UTF-8 in which all characters are visible or spaces and stand in the
-/// order in which they are stored. Refused are control characters (C0, DEL, C1), line and paragraph
-/// separators, marks, overrides and isolates of the direction of writing, and characters without
-/// width, such as a byte order mark. U+200C and U+200D, which join or separate letters, are allowed
-/// beside others than ASCII: several scripts need them.
+/// text is one line of valid UTF-8 whose characters stand in the order in which they are stored.
+/// Refused are control characters (C0, DEL, C1), line and paragraph separators, marks, overrides
+/// and isolates of the direction of writing, and characters without width, such as a byte order
+/// mark. U+200C and U+200D, which join or separate letters, are allowed after others than ASCII:
+/// several scripts need them.
 std::optional<std::string> text_fault(std::string_view text);
 
 /// A text for people, on one line: the bytes of every character that text_fault() refuses are

@@ -143,7 +143,8 @@ bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
                 sub.R_WB, scene->regularisation};
   system.force_time = sub.impulse_time;
   system.limits = limits_of_solve(sub, report);
-  system.u_sliding = begins_with_impact ? sub.u_before : sub.integrator->velocities_at_start(sub);
+  const bool is_struck = begins_with_impact || !sub.struck.empty();
+  system.u_sliding = is_struck ? sub.u_before : sub.integrator->velocities_at_start(sub);
   sub.integrator->extend(system, sub, state);
   system.frame_share = sub.dt / scene->frame;
   const bool closes = drift_law(sub.settings) == Drift::kExact && joints && !sub.probing;

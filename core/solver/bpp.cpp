@@ -48,7 +48,7 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
   for (int pass = 0; pass < kPasses; ++pass) {
     ++report.passes;
     set_friction_bounds(system);
-    if (settings.friction_cone == FrictionCone::kCone) soften_sliding(system, pass);
+    if (settings.friction_cone == FrictionCone::kCone) soften_sliding(system);
     for (int step = 0;; ++step) {
       solve_active_set(system);
       if (over_limits(system, report)) return;
@@ -169,7 +169,7 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
   has_impulses_ = true;
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
-    if (block.rows == 3 && settings.friction_cone == FrictionCone::kCone) {  // has its own cone
+    if (block.rows == 3 && block.sliding > 0.0) {  // it has a cone of its own
       block.softness[2] = block.softness[1];
       block.bias[2] -= std::exchange(block.across, 0.0);
       block.sliding = 0.0;
@@ -234,16 +234,10 @@ void Bpp::set_friction_bounds(const System& system) {
   }
 }
 
-void Bpp::soften_sliding(const System& system, int pass) {
+void Bpp::soften_sliding(const System& system) {
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
     if (block.rows != 3 || !block.is_contact()) continue;
-    if (system.u_sliding.empty() && pass > 0) {  // that of the last pass
-      double speed[kMaxRows];
-      row_speeds(block, system.u, speed);
-      block.sliding = std::sqrt(speed[1] * speed[1] + speed[2] * speed[2]);
-      block.softness[2] = block.softness[1];
-    }
     if (soften_across(block) && block.active_set[2] == 0) ldlt_.touch(i);
   }
 }

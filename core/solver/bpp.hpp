@@ -41,7 +41,7 @@ class Bpp final : public Solver {
   };
   void start_active_set(const System& system);
   void set_friction_bounds(const System& system);
-  void soften_sliding(const System& system, int pass);
+  void soften_sliding(const System& system);
   /// True if the solution stays valid under the friction bounds it implies.
   [[nodiscard]] bool bounds_settled(const System& system) const;
   void solve_active_set(const System& system);

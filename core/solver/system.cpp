@@ -59,7 +59,7 @@ void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
 
 /// The mean of the sliding before and after as a bias and a softness of row 2,
 ///   beta s_2 + s_2+ + (1 + beta) |s|/(mu x_n) x_2 = 0,
-/// with beta = 1 where the sliding hardly changes, and 0 where it begins or ends: there the mean
+/// with beta = 1 where the forces hardly change the sliding, and 0 where it begins: there the mean
 /// would let it swing. @param before, after row speeds in the tangents before they turn by (c, s)
 void mean_sliding(const double* before, const double* after, double c, double s, Block& block) {
   const double square = before[1] * before[1] + before[2] * before[2];
@@ -70,6 +70,7 @@ void mean_sliding(const double* before, const double* after, double c, double s,
   block.sliding = (1.0 + beta) * std::sqrt(square);
   block.across = beta * (c * before[2] - s * before[1]);
   block.bias[2] += block.across;
+  block.softness[2] = block.softness[1];  // until soften_across()
 }
 
 }  // namespace
@@ -153,11 +154,14 @@ void align_tangents(const System& system) {
     if (block.rows != 3 || !block.is_contact()) continue;
     block.share[0] = block.share[1] = 1.0;  // sweeps of a fallback may have changed it
     block.sliding = block.across = 0.0;
-    block.softness[2] = block.softness[1];
     double after[kMaxRows];
     double before[kMaxRows];
     row_speeds(block, system.u, after);
-    row_speeds(block, knows_before ? system.u_sliding : system.u, before);
+    if (knows_before) {
+      row_speeds(block, system.u_sliding, before);
+    } else {
+      std::copy_n(after, block.rows, before);
+    }
     const double mean[] = {0.5 * (before[1] + after[1]), 0.5 * (before[2] + after[2])};
     const double length = std::sqrt(mean[0] * mean[0] + mean[1] * mean[1]);
     if (!(length > kLeastSliding * std::abs(after[0]))) continue;
@@ -181,10 +185,10 @@ void align_tangents(const System& system) {
 
 bool soften_across(Block& contact) {
   const double bound = contact.mu * std::max(0.0, contact.impulse[0]);
-  if (contact.softness[2] != contact.softness[1] || !(contact.sliding > 0.0 && bound > 0.0)) {
-    return false;
-  }
-  contact.softness[2] += contact.sliding / bound;
+  const double yields = bound > 0.0 ? contact.sliding / bound : 0.0;
+  const bool is_softened = contact.softness[2] != contact.softness[1];
+  if (!(yields > 0.0) || !std::isfinite(yields) || is_softened) return false;
+  contact.softness[2] += yields;
   return true;
 }
 

@@ -52,7 +52,7 @@ struct System {
   double regularisation = 0.0;
 
   // Per body: velocities before this sub-step, whose mean with u+ is the sliding of contacts [m/s,
-  // rad/s]; if empty, u+ alone.
+  // rad/s]; empty in impacts.
   std::span<const Vec6> u_sliding{};
 
   // Per body: initial guess of Newton [m/s, rad/s]; if empty, u_before.
@@ -130,16 +130,16 @@ void point_cone(Block& block, double along_t1, double along_t2);
 
 /// Isotropic friction for solvers that bound each tangent: rotates the tangents of every contact,
 /// with their rows, so that t1 points along its sliding, and prepares soften_across(). The sliding
-/// is the mean of that of u_sliding and u of the system; without u_sliding it is that of u. Changes
-/// bias and softness of row 2, once for each solve. Impulses are not rotated: those of the last
-/// sub-step belong to its sliding, too.
+/// is the mean of that of u_sliding and u of the system. Without u_sliding, as in impacts, it is
+/// that of u, and no row yields. Changes bias and softness of row 2, once for each solve. Impulses
+/// are not rotated: those of the last sub-step belong to its sliding, too.
 void align_tangents(const System& system);
 
 /// Row 2 of a contact that slides yields: the force points against the sliding, so that to first
 /// order that across t1 is its share of the bound,
 ///   x_2 = -mu x_n s_2/|s|,   or   s_2 + |s|/(mu x_n) x_2 = 0,
 /// with s the mean sliding of the sub-step. Otherwise bodies of unequal inertia, or with several
-/// contacts, are kept from sliding across t1. A contact that sticks has |s| = 0 and does not yield.
+/// contacts, are kept from sliding across t1. A contact that sticks() does not yield.
 /// x_n is the first normal impulse that is known, mostly that of the last sub-step: one that
 /// followed the passes of a solve would let them swing. Adds to the softness of row 2.
 /// @return true if it does

@@ -6,8 +6,12 @@
 
 namespace substep {
 
+bool aims_rolling(const Settings& settings) {
+  return settings.friction_cone == FrictionCone::kCone && !entry_of(settings.solver).at_end;
+}
+
 std::int64_t aim_rolling(const Substep& sub) {
-  if (entry_of(sub.settings.solver).at_end) return 0;
+  if (!aims_rolling(sub.settings)) return 0;
   std::int64_t flops = 0;
   const auto motion_of = [&](int body) {
     return body < 0 ? Motion{} : motion(sub.u_before[index(body)], sub.dt);

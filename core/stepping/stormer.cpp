@@ -205,7 +205,7 @@ std::int64_t Stormer::aim(const Substep& sub, State& state) {
   for (const Block& block : sub.rows) {
     if (gives_forces(sub, block)) apply_impulse(block, block.given, sub.inverse_mass, state.u);
   }
-  return aims ? aim_flops(sub.rows, std::ssize(sub.part->moving)) : 0;
+  return aims ? aim_flops(sub.rows, std::ssize(sub.part->moving)) : aim_rolling(sub);
 }
 
 // Joints must hold at the end poses, and contacts that stick must not slide on the way; rows are
@@ -233,7 +233,7 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
     double gained[kMaxRows];
     if (!block.is_contact()) {
       moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
-    } else if (sticks(block)) {
+    } else if (aims_rolling(sub.settings) && sticks(block)) {
       moved_sliding(block, motions_.of(block.a), motions_.of(block.b), gained + 1);
     } else {
       continue;
@@ -247,7 +247,8 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
       per_g = 1.0 / (1.0 + growth_of(sub.dt, time) * sub.dt / (6.0 * time));
     }
     if (block.is_contact()) {
-      for (int row = 1; row < 3; ++row) block.bias[row] = per_g / sub.dt * gained[row] - speed[row];
+      for (int row = 1; row < 3; ++row)
+        block.bias[row] += per_g / sub.dt * gained[row] - speed[row];
       continue;
     }
     for (int row = 0; row < block.rows; ++row) {

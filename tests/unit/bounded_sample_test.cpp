@@ -37,15 +37,5 @@ TEST(BoundedSample, SamplesALongRunEvenly) {
   }
 }
 
-TEST(BoundedSample, IsTheSameEveryTime) {
-  BoundedSample a;
-  BoundedSample b;
-  for (int i = 0; i < 3 * kMost; ++i) {
-    a.add(std::sqrt(i));
-    b.add(std::sqrt(i));
-  }
-  EXPECT_EQ(a.values(), b.values());
-}
-
 }  // namespace
 }  // namespace substep

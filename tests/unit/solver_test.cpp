@@ -3,6 +3,7 @@
 #include "core/solver/solver.hpp"
 
 #include <Eigen/LU>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -377,6 +378,47 @@ TEST_P(EverySolver, VelocitiesAreThoseOfTheImpulses) {
     for (std::size_t i = 0; i < expected.size(); ++i)
       EXPECT_LT((problem.u[i] - expected[i]).norm(), 1e-9);
   }
+}
+
+// Of a slender body that hits with one end, in any direction, with tangents in any direction.
+TEST(Bpp, AnObliqueImpactSticksWithinTheCone) {
+  Random random(19);
+  int sticking = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Problem problem = random_problem(random, {1, 0, 1, 1.0});
+    const Vec3 axis = random_vector(random).normalized();
+    Mat3 W = 12.0 * (Mat3::Identity() - axis * axis.transpose()) + 600.0 * axis * axis.transpose();
+    problem.inverse_mass[0].linear = 1.0;
+    problem.inverse_mass[0].angular = W;
+    Block& block = problem.blocks[0];
+    block.a = 0;
+    block.b = -1;
+    block.r_a = 0.5 * axis;
+    block.n = random_vector(random).normalized();
+    Vec3 t1;
+    Vec3 t2;
+    across(block.n, t1, t2);
+    const double turned = uniform(random, 0.0, 3.0);
+    block.t1 = std::cos(turned) * t1 + std::sin(turned) * t2;
+    block.t2 = block.n.cross(block.t1);
+    set_row(block, 0, block.n);
+    set_row(block, 1, block.t1);
+    set_row(block, 2, block.t2);
+    std::fill_n(block.softness, 3, 0.0);
+    std::fill_n(block.bias, 3, 0.0);
+    problem.u[0].setZero();
+    problem.u[0].head<3>() = -block.n + 1e-3 * random_vector(random);
+    substep::Settings settings;
+    settings.friction_cone = FrictionCone::kCone;
+    Bpp().solve(problem.system(), settings);
+    const double along = std::hypot(block.impulse[1], block.impulse[2]);
+    if (along > 0.9 * block.impulse[0]) continue;
+    ++sticking;
+    double speed[kMaxRows];
+    row_speeds(block, problem.u, speed);
+    EXPECT_LT(std::hypot(speed[1], speed[2]), 1e-9) << "trial " << trial;
+  }
+  EXPECT_GT(sticking, 100);
 }
 
 TEST(System, SpeedsAndForcesMatchTheGradients) {

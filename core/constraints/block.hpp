@@ -61,8 +61,8 @@ struct Block {
   // Friction box: 1 each. Cone: |cos|, |sin| of the force's direction, the box with its corner on
   // the circle; the solver rotates it until it opposes the sliding.
   double share[2] = {1.0, 1.0};
-  double sliding = 0.0;  // isotropic friction: resistance of row 2 times its bound [m/s]
-  double across = 0.0;   // isotropic friction: part of bias[2] [m/s]
+  double sliding = 0.0;    // isotropic friction: resistance of row 2 times its bound [m/s]
+  double across = 0.0;     // isotropic friction: part of bias[2] [m/s]
   Vec3 n = Vec3::Zero();   // from b to a, world
   Vec3 t1 = Vec3::Zero();  // tangents, world; set only with friction
   Vec3 t2 = Vec3::Zero();

@@ -134,6 +134,8 @@ async function open(frame, options, renderer) {
   if (options.link !== undefined) problems.push(...problemsOf("link", await calls.openLink(options.link)));
   if (problems.length > 0) {
     clock.stop();
+    address.stop();
+    capture.close("the laboratory did not start");
     frame.stop();
     wasm.close();
     throw optionError(problems);

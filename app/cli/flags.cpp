@@ -52,7 +52,7 @@ void SettingsFlags::add_to(CLI::App& command) {
 
 void SettingsFlags::add_to(CLI::App& command, std::span<const std::string_view> refused,
                            const std::string& reason) {
-  // Hidden, and so that the reason is given: the library only knows unexpected arguments.
+  // Without these hidden flags the library would report unexpected arguments, without the reason.
   const auto refuse = [&](const std::string& names, const std::string& name, bool with_value) {
     const auto refusing = [name, reason](const auto&) {
       throw CLI::ValidationError("--" + name, reason);
@@ -92,7 +92,7 @@ void SettingsFlags::add_preset(CLI::App& command) {
 
 void SettingsFlags::add_flag(CLI::App& command, const SettingField& field) {
   const std::string name = flag_name(field);
-  // The library would add --name and --no-name up.
+  // Of --name and --no-name together the library would take the sum.
   const auto one_of_both = [name, first = std::string()](const std::string& value) mutable {
     if (first.empty()) first = value;
     if (first != value) throw CLI::ExcludesError("--" + name, "--no-" + name);

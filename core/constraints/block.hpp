@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -61,8 +62,10 @@ struct Block {
   // Friction box: 1 each. Cone: |cos|, |sin| of the force's direction, the box with its corner on
   // the circle; the solver rotates it until it opposes the sliding.
   double share[2] = {1.0, 1.0};
-  double sliding = 0.0;    // isotropic friction: resistance of row 2 times its bound [m/s]
-  double across = 0.0;     // isotropic friction: part of bias[2] [m/s]
+  // Isotropic friction, soften_across(): the sliding speed of a contact that slides, times 1 to 2,
+  // else 0; and the part of bias[2] that averages its sliding over the sub-step [m/s].
+  double sliding = 0.0;
+  double across = 0.0;
   Vec3 n = Vec3::Zero();   // from b to a, world
   Vec3 t1 = Vec3::Zero();  // tangents, world; set only with friction
   Vec3 t2 = Vec3::Zero();
@@ -112,6 +115,13 @@ inline Vec6 gradient(const Block& block, int row, bool of_a) {
   }
   for (int j = 0; j < 6; ++j) J[j] = sign * block.J_a[row][j];
   return J;
+}
+
+/// Distance by which the positions of a joint are apart: not the travel of a slide [m].
+inline double gap_of(const Block& joint) {
+  double square = 0.0;
+  for (int row = 0; row < joint.position_rows; ++row) square += joint.phi[row] * joint.phi[row];
+  return std::sqrt(square);
 }
 
 /// Sets J of a row whose force acts along a direction, at r_a on a and at r_b on b.

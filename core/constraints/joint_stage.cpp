@@ -74,9 +74,7 @@ JointErrors JointStage::errors(const State& state, std::span<const Mat3> R_WB) c
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     fill(state, R_WB, i, block);
     for (int row = 0; row < block.rows; ++row) errors.sum += std::abs(block.phi[row]);
-    double square = 0.0;
-    for (int row = 0; row < block.position_rows; ++row) square += block.phi[row] * block.phi[row];
-    const double gap = std::sqrt(square);
+    const double gap = gap_of(block);
     if (gap > errors.gap) {
       errors.gap = gap;
       errors.joint = static_cast<int>(i);

@@ -18,14 +18,15 @@ double gained_gap(const Block& start, const Vec3& d, const Vec3& Hd) {
   return start.n.dot(d) + 0.5 * d.dot(Hd);
 }
 
+// A contact point after the motion, world but for d and Hd.
 struct MovedPoint {
-  Vec3 arm_a;
+  Vec3 d;      // from where p was, in the frame of b [m]
+  Vec3 Hd;     // change of the normal, in the frame of b [-]
+  Vec3 n;      // normal
+  Vec3 arm_a;  // as in Block [m]
   Vec3 rho;
-  Vec3 Hd;  // change of n, in the frame of b
-  Vec3 n;
   Vec3 r_a;
   Vec3 r_b;
-  Vec3 d;  // of p in the frame of b
 };
 
 MovedPoint move_point(const Block& start, const Motion& a, const Motion& b) {
@@ -42,9 +43,11 @@ MovedPoint move_point(const Block& start, const Motion& a, const Motion& b) {
   return moved;
 }
 
-// Displacement by a rotation of the point whose arm is the mean of two. For a point of the body,
-// whose arm turns with it, this is R r - r, and for a constant arm dt omega x r: with c = dt omega
-// of integrate()'s Cayley map, R r - r = c x (R r + r)/2.
+// Displacement [m] by a rotation of the point whose arm is the mean of two. With c = dt omega of
+// integrate()'s Cayley map,
+//   R r - r = c x (R r + r)/2.
+// It is therefore R r - r for a point of the body, whose arm rotates with it, and dt omega x r for
+// a constant arm.
 Vec3 turned_about_middle(const Mat3& R, const Vec3& r, const Vec3& r_moved) {
   constexpr double kLeast = 1e-12;  // near half a turn
   const Vec3 twice_sine{R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)};
@@ -52,8 +55,8 @@ Vec3 turned_about_middle(const Mat3& R, const Vec3& r, const Vec3& r_moved) {
   return c.cross(0.5 * (r + r_moved));
 }
 
-// Sliding of the points that touch half way: those that touch at the start leave the tangential
-// plane of a ball that rolls and spins.
+// Sliding distance of the points that touch in the middle of the motion [m]. Those that touch at
+// its start leave the tangential plane if a ball rolls and spins about the normal.
 Vec3 slid(const Block& start, const Motion& a, const Motion& b, const MovedPoint& moved) {
   return (a.dx - b.dx) + (turned_about_middle(a.R, start.r_a, moved.r_a) -
                           turned_about_middle(b.R, start.r_b, moved.r_b));

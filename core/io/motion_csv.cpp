@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/constraints/joint_rows.hpp"
 #include "core/io/csv_text.hpp"
 #include "core/model/validate.hpp"
 
@@ -16,21 +17,24 @@ std::string start_of_line(const State& state, const std::string& name) {
   return std::to_string(state.frame) + ',' + csv_number(state.time) + ',' + csv_field(name);
 }
 
-/// The anchor of one side, world [m].
-Vec3 anchor(const State& state, int body, const Vec3& local) {
-  return body == kWorld ? local : Vec3(state.x[index(body)] + state.q[index(body)] * local);
-}
-
-/// Distance of the anchors [m], without the travel of a slide.
+/// Distance by which the positions of a joint are apart [m].
 double gap_of(const State& state, const Joint& joint) {
-  const JointBase& sides = base(joint);
-  Vec3 gap = anchor(state, sides.a, sides.anchor_a) - anchor(state, sides.b, sides.anchor_b);
-  if (const auto* slide = std::get_if<PrismaticJoint>(&joint)) {
-    const Vec3 axis =
-        slide->b == kWorld ? slide->axis_b : Vec3(state.q[index(slide->b)] * slide->axis_b);
-    gap -= axis * axis.dot(gap);
-  }
-  return gap.norm();
+  const auto centre = [&](int body) { return body == kWorld ? kOrigin : state.x[index(body)]; };
+  const auto rotation = [&](int body) -> Mat3 {
+    return body == kWorld ? kUnturned : state.q[index(body)].toRotationMatrix();
+  };
+  const int a = base(joint).a;
+  const int b = base(joint).b;
+  const Vec3 x_a = centre(a);
+  const Vec3 x_b = centre(b);
+  const Mat3 R_a = rotation(a);
+  const Mat3 R_b = rotation(b);
+  Block block;
+  with_joint_rows(joint, [&](auto rows, const auto& own) {
+    rows.constants(own, block);
+    rows.rows(rows.geometry(own), Side{x_a, R_a}, Side{x_b, R_b}, block);
+  });
+  return gap_of(block);
 }
 
 }  // namespace

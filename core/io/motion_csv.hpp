@@ -21,9 +21,9 @@ std::string states_lines(const Scene& scene, const State& state);
 std::string joints_header();
 
 /// A line for each joint of the scene: the force on its body a [N], which acts at the anchor on a,
-/// and the torque about that anchor [N m], both of the last sub-step; the distance of the two
-/// anchors [m] in the state, without the travel of a slide; and the time to which the force belongs
-/// [s]. "nan" if no sub-step has solved for the joint (both sides asleep).
+/// and the torque about that anchor [N m], both of the last sub-step; the distance by which its
+/// positions are apart in the state, without the travel of a slide [m]; and the time to which the
+/// force belongs [s]. "nan" if no sub-step has solved for the joint (both sides asleep).
 std::string joints_lines(const Scene& scene, const State& state, const ConstraintForces& forces);
 
 }  // namespace substep

@@ -35,7 +35,7 @@ struct Field {
 
 constexpr double kMostCount = 9007199254740992.0;  // 2^53: doubles count exactly up to it
 constexpr Range kAnyCount{0.0, kMostCount};
-constexpr Range kSubstepsOfFrame{0.0, 1e6};  // of a frame
+constexpr Range kSubstepsOfFrame{0.0, 1e6};
 constexpr Range kAny;
 constexpr Range kNotNegative{.least = 0.0};
 

@@ -68,7 +68,7 @@ JointStart measured(const Scene& scene, const State& state, const Block& block,
   double sine = 0.0;  // of the tilt
   const int positions = block.position_rows;
   if (holds.anchors) {
-    start.gap = norm(block.phi, 0, positions);
+    start.gap = gap_of(block);
     start.speed = norm(speeds, 0, positions);
   }
   if (holds.axes && block.rows > positions) {

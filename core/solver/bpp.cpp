@@ -26,6 +26,10 @@ bool has_known_set(const Block& block) {
                      [](std::int8_t t) { return -1 <= t && t <= 1; });
 }
 
+int refinements_of(const System& system, const Settings& settings) {
+  return system.regularisation > 0.0 ? settings.refinements : 0;
+}
+
 double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse)); }
 
 }  // namespace
@@ -79,10 +83,11 @@ void Bpp::centre(const System& system) {
 
 SolveReport Bpp::find_velocities(const System& system, const Settings& settings) {
   if (settings.friction_cone == FrictionCone::kCone) align_tangents(system);
-  return find_with_tangents(system, settings);
+  if (refinements_of(system, settings) > 0) centre_.assign(system.blocks.size(), Centre{});
+  return find_again(system, settings);
 }
 
-SolveReport Bpp::find_with_tangents(const System& system, const Settings& settings) {
+SolveReport Bpp::find_again(const System& system, const Settings& settings) {
   if (!ldlt_.begin(system)) {
     return {.status = SolveStatus::kOverLimits, .memory_needed = ldlt_.needed_memory()};
   }
@@ -91,11 +96,8 @@ SolveReport Bpp::find_with_tangents(const System& system, const Settings& settin
   any_contact_ = std::any_of(system.blocks.begin(), system.blocks.end(),
                              [](const Block& block) { return block.is_contact(); });
   if (any_contact_) start_active_set(system);
-  const int refinements = system.regularisation > 0.0 ? settings.refinements : 0;
-  if (refinements > 0) {
-    centre_.assign(system.blocks.size(), Centre{});
-    centre(system);
-  }
+  const int refinements = refinements_of(system, settings);
+  if (refinements > 0) centre(system);
   find_active_set(system, settings, report);
   for (int i = 0; i < refinements && report.status < SolveStatus::kUnsolved; ++i) {
     find_impulses(system.blocks);
@@ -110,7 +112,7 @@ SolveReport Bpp::find_with_tangents(const System& system, const Settings& settin
 }
 
 SolveReport Bpp::find_velocities_again(const System& system, const Settings& settings) {
-  if (any_contact_ || settings.refinements > 0) return find_with_tangents(system, settings);
+  if (any_contact_ || settings.refinements > 0) return find_again(system, settings);
   SolveReport report;
   const std::int64_t before = ldlt_.flops();
   if (ldlt_.held()) {

@@ -28,8 +28,8 @@ class Bpp final : public Solver {
   std::int64_t find_impulses(std::span<Block> blocks) override;
 
  private:
-  /// The same for rows whose tangents are aligned.
-  SolveReport find_with_tangents(const System& system, const Settings& settings);
+  /// The same for rows whose tangents are aligned and whose bias contains the centre.
+  SolveReport find_again(const System& system, const Settings& settings);
   /// Starts from the current active set and factor.
   void find_active_set(const System& system, const Settings& settings, SolveReport& report);
   void centre(const System& system);

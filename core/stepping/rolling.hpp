@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/constraints/moved_rows.hpp"
 #include "core/stepping/substep.hpp"
 
 namespace substep {
@@ -14,8 +15,8 @@ bool aims_rolling(const Settings& settings);
 /// points, predicted with the velocities before the forces:
 ///   J u+ + (s^/dt - J u^) = 0,   s^ the sliding distance of the motion u^.
 /// Without it rolling on a curved surface is of first order. Not with the paper's friction box,
-/// which keeps its results, nor for solvers that hold rows at the end of a sub-step. @return
-/// operations
-std::int64_t aim_rolling(const Substep& sub);
+/// which keeps its results, nor for solvers that hold rows at the end of a sub-step.
+/// @param motions scratch, of all bodies  @return operations
+std::int64_t aim_rolling(const Substep& sub, Motions& motions);
 
 }  // namespace substep

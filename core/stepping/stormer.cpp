@@ -55,12 +55,11 @@ class Stormer : public Leapfrog {
 
  private:
   void find_first_changes(const Substep& sub, State& state) const;
-  void aim_at_poses(const Substep& sub, State& state);
+  std::int64_t aim_at_poses(const Substep& sub, State& state);
   void store_changes(const Substep& sub, std::size_t body, const Vec6& a, State& state);
 
   const JointStage* joints_;
   std::vector<Vec6> u_guess_;  // u^
-  Motions motions_;            // by w^
   std::vector<Vec6> w_;
   struct Changes {  // per body, over dt; of the torque for tumbling bodies
     Vec6 a = Vec6::Zero();
@@ -201,20 +200,19 @@ void Stormer::find_first_changes(const Substep& sub, State& state) const {
 
 std::int64_t Stormer::aim(const Substep& sub, State& state) {
   const bool aims = drift_law(sub.settings) == Drift::kFull;
-  if (aims) aim_at_poses(sub, state);
+  const std::int64_t flops = aims ? aim_at_poses(sub, state) : aim_rolling(sub, motions_);
   for (const Block& block : sub.rows) {
     if (gives_forces(sub, block)) apply_impulse(block, block.given, sub.inverse_mass, state.u);
   }
-  return aims ? aim_flops(sub.rows, std::ssize(sub.part->moving)) : aim_rolling(sub);
+  return flops;
 }
 
 // Joints must hold at the end poses, and contacts that stick must not slide on the way; rows are
 // linearised about poses extrapolated with the last change of acceleration: the motion w^ from u^.
-void Stormer::aim_at_poses(const Substep& sub, State& state) {
+std::int64_t Stormer::aim_at_poses(const Substep& sub, State& state) {
   for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &u_guess_}) {
     of_bodies->resize(state.u.size(), Vec6::Zero());
   }
-  motions_.resize(state.u.size());
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     u_guess_[i] = sub.u_before[i] +
@@ -229,12 +227,14 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
     motions_[i] = motion(w_guess, sub.dt);
   }
   const double share = sub.dt / sub.planned_dt;  // of the gap
+  std::int64_t flops = aim_flops(sub.rows, std::ssize(sub.part->moving));
   for (Block& block : sub.rows) {
     double gained[kMaxRows];
     if (!block.is_contact()) {
       moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
     } else if (aims_rolling(sub.settings) && sticks(block)) {
       moved_sliding(block, motions_.of(block.a), motions_.of(block.b), gained + 1);
+      flops += move_flops(block, 2);
     } else {
       continue;
     }
@@ -261,6 +261,7 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
       block.softness[row] *= per_g;
     }
   }
+  return flops;
 }
 
 bool Stormer::breaks_motion(const Block& contact) const {

@@ -22,16 +22,16 @@ std::string scene_with(const std::string& version, const std::string& settings) 
   return with(kVersion1, version, with(kChosen, settings));
 }
 
-Settings settings_of(const std::string& text) {
+substep::Settings settings_of(const std::string& text) {
   EXPECT_EQ(problems_of(text), List{});
   const auto scene = read_scene(text).scene;
-  return scene ? scene->settings : Settings{};
+  return scene ? scene->settings : substep::Settings{};
 }
 
 TEST(DefaultSettings, AreThePresetSteadyAndNotThePapers) {
-  EXPECT_EQ(find_preset("steady")->settings, Settings{});
+  EXPECT_EQ(find_preset("steady")->settings, substep::Settings{});
   EXPECT_EQ(find_preset("paper")->settings, PaperSettings{});
-  const Settings ours;
+  const substep::Settings ours;
   const PaperSettings paper;
   EXPECT_NE(ours, paper);
   EXPECT_EQ(ours.drift, Drift::kExact);
@@ -43,14 +43,15 @@ TEST(DefaultSettings, AreThePresetSteadyAndNotThePapers) {
 
 TEST(DefaultSettings, AreThoseOfAFileWithoutSettings) {
   for (const std::string& version : {kVersion1, kVersion2}) {
-    EXPECT_EQ(settings_of(scene_with(version, "")), Settings{}) << version;
-    EXPECT_EQ(settings_of(scene_with(version, R"("settings": {},)")), Settings{}) << version;
+    EXPECT_EQ(settings_of(scene_with(version, "")), substep::Settings{}) << version;
+    EXPECT_EQ(settings_of(scene_with(version, R"("settings": {},)")), substep::Settings{})
+        << version;
   }
 }
 
 TEST(DefaultSettings, CompleteABlockOfVersion2) {
   const std::string text = scene_with(kVersion2, R"("settings": {"alpha": 0.05, "hold": 7},)");
-  EXPECT_EQ(settings_of(text), (Settings{.alpha = 0.05, .hold = 7}));
+  EXPECT_EQ(settings_of(text), (substep::Settings{.alpha = 0.05, .hold = 7}));
 }
 
 TEST(DefaultSettings, OfThePaperCompleteABlockOfVersion1) {
@@ -63,7 +64,7 @@ TEST(DefaultSettings, AreNamedByABlock) {
     EXPECT_EQ(settings_of(scene_with(version, R"("settings": {"n": 3, "preset": "paper"},)")),
               PaperSettings{.n = 3});
     EXPECT_EQ(settings_of(scene_with(version, R"("settings": {"n": 3, "preset": "steady"},)")),
-              Settings{.n = 3});
+              substep::Settings{.n = 3});
   }
   EXPECT_EQ(problems_of(scene_with(kVersion2, R"("settings": {"preset": "best"},)")),
             List{"/settings/preset: must be steady or paper, not \"best\""});
@@ -78,12 +79,12 @@ TEST(DefaultSettings, ReadBackWhateverTheyAre) {
 }
 
 TEST(DefaultSettings, AreThoseOfAScenePutTogetherInCode) {
-  EXPECT_EQ(Scene{}.settings, Settings{});
+  EXPECT_EQ(Scene{}.settings, substep::Settings{});
   SceneBuilder builder("own");
   builder.add_body(Sphere{0.1}, 1.0, Vec3::Zero());
   const std::shared_ptr<const Scene> scene = builder.build();
-  EXPECT_EQ(scene->settings, Settings{});
-  EXPECT_EQ(Simulator(scene).settings(), Settings{});
+  EXPECT_EQ(scene->settings, substep::Settings{});
+  EXPECT_EQ(Simulator(scene).settings(), substep::Settings{});
 }
 
 // Results of versions without some settings keep their meaning and their ids.

@@ -108,7 +108,7 @@ const std::vector<Broken>& broken_scenes() {
   return all;
 }
 
-std::shared_ptr<const Scene> shared(const Scene& scene) {
+std::shared_ptr<const Scene> pointer_to(const Scene& scene) {
   return std::make_shared<const Scene>(scene);
 }
 
@@ -148,14 +148,14 @@ const std::vector<Call>& calls() {
       // sim
       {"Simulator",
        [](const Scene& s) {
-         Simulator simulator(shared(s));
+         Simulator simulator(pointer_to(s));
          EXPECT_EQ(simulator.step().status, StepStatus::kInvalid);
          EXPECT_FALSE(simulator.problems().empty());
        }},
       {"start_of_run", [](const Scene& s) { EXPECT_TRUE(start_of_run(s).state.x.empty()); }},
       {"with_start_of_run",
        [](const Scene& s) {
-         const auto scene = shared(s);
+         const auto scene = pointer_to(s);
          EXPECT_EQ(with_start_of_run(scene), scene);
        }},
       {"joint_starts",
@@ -178,13 +178,13 @@ const std::vector<Call>& calls() {
       // lab
       {"find_reference",
        [](const Scene& s) {
-         const Reference reference = find_reference(shared(s), kSeconds);
+         const Reference reference = find_reference(pointer_to(s), kSeconds);
          EXPECT_TRUE(reference.track.empty());
          EXPECT_EQ(reference.failure, "the scene is invalid: " + to_code(check_values(s).front()));
        }},
       {"ReferenceRun",
        [](const Scene& s) {
-         ReferenceRun run(shared(s), kSeconds);
+         ReferenceRun run(pointer_to(s), kSeconds);
          EXPECT_EQ(run.source(), "");
          EXPECT_FALSE(run.advance());
          EXPECT_EQ(run.progress(), 1.0);
@@ -204,7 +204,7 @@ const std::vector<Call>& calls() {
       {"expected_work", [](const Scene& s) { EXPECT_GE(expected_work(s, experiment_on(s)), 0.0); }},
       {"Sweep",
        [](const Scene& s) {
-         Sweep sweep(shared(s), {experiment_on(s), experiment_on(s)});
+         Sweep sweep(pointer_to(s), {experiment_on(s), experiment_on(s)});
          EXPECT_FALSE(sweep.advance(kLong));
          ASSERT_EQ(sweep.results().size(), 2U);
          expect_failed(sweep.results()[1]);
@@ -268,13 +268,13 @@ const std::vector<Call>& calls() {
        }},
       {"Survey",
        [](const Scene& s) {
-         Survey survey(shared(s), kSeconds);
+         Survey survey(pointer_to(s), kSeconds);
          EXPECT_FALSE(survey.advance());
          EXPECT_FALSE(survey.farthest());
        }},
       {"AlphaSearch",
        [](const Scene& s) {
-         AlphaSearch search = AlphaSearch::largest_within(shared(s), experiment_on(s),
+         AlphaSearch search = AlphaSearch::largest_within(pointer_to(s), experiment_on(s),
                                                           no_reference(), ErrorAxis::kGap, 1.0);
          EXPECT_FALSE(search.advance(kLong));
          EXPECT_FALSE(search.choice());
@@ -284,14 +284,14 @@ const std::vector<Call>& calls() {
          Result candidate;
          candidate.experiment = experiment_on(s);
          candidate.experiment.duration = kSeconds / 2;
-         HoldSearch search(shared(s), {candidate}, kSeconds, no_reference(),
+         HoldSearch search(pointer_to(s), {candidate}, kSeconds, no_reference(),
                            [](const Result&) { return true; });
          EXPECT_FALSE(search.advance(kLong));
          EXPECT_FALSE(search.found());
        }},
       {"RemedyTrials",
        [](const Scene& s) {
-         RemedyTrials trials(shared(s), {{"", "", Settings{}}}, {.frames = 3});
+         RemedyTrials trials(pointer_to(s), {{"", "", Settings{}}}, {.frames = 3});
          EXPECT_FALSE(trials.advance());
          EXPECT_TRUE(trials.hold().empty());
        }},
@@ -375,7 +375,7 @@ TEST(RefusedScenes, TheSameCallsServeAValidOne) {
   EXPECT_EQ(joined_mass(scene, 1), 3.0);
   EXPECT_EQ(joined_mass(scene, 3), 0.0) << "no such body";
   EXPECT_EQ(joined_mass(scene, kWorld), 0.0);
-  EXPECT_EQ(find_reference(shared(scene), kSeconds).failure, "");
+  EXPECT_EQ(find_reference(pointer_to(scene), kSeconds).failure, "");
   EXPECT_GE(forecast(scene, Settings{}).body, 0);
   EXPECT_FALSE(default_sweep(scene).empty());
   EXPECT_NE(scene_hash(scene), 0U);
@@ -385,10 +385,10 @@ TEST(RefusedScenes, TheSameCallsServeAValidOne) {
 }
 
 TEST(RefusedScenes, AMovedSimulatorHasNone) {
-  Simulator simulator(shared(valid_scene()));
+  Simulator simulator(pointer_to(valid_scene()));
   simulator.step();
   Simulator other(std::move(simulator));
-  Simulator third(shared(valid_scene()));
+  Simulator third(pointer_to(valid_scene()));
   third = std::move(other);
   EXPECT_EQ(third.state().frame, 1) << "the run went along";
   EXPECT_EQ(third.step().status, StepStatus::kOk);
@@ -411,17 +411,17 @@ TEST(RefusedScenes, AMovedSimulatorHasNone) {
     moved->set_grab(std::nullopt);
     EXPECT_FALSE(moved->grab());
     EXPECT_EQ(to_code(moved->problems().front()), "there is no scene");
-    *moved = Simulator(shared(valid_scene()));
+    *moved = Simulator(pointer_to(valid_scene()));
     EXPECT_EQ(moved->step().status, StepStatus::kOk) << "it can be used again";
   }
 }
 
 TEST(RefusedScenes, OtherMovedRunsHaveEnded) {
-  ReferenceRun run(shared(valid_scene()), kSeconds);
+  ReferenceRun run(pointer_to(valid_scene()), kSeconds);
   const ReferenceRun other(std::move(run));
   EXPECT_FALSE(run.advance());
   EXPECT_EQ(run.source(), "");
-  RemedyTrials trials(shared(valid_scene()), {{"", "", Settings{}}}, {.frames = 3});
+  RemedyTrials trials(pointer_to(valid_scene()), {{"", "", Settings{}}}, {.frames = 3});
   trials.advance();
   const RemedyTrials rest(std::move(trials));
   EXPECT_FALSE(trials.advance());

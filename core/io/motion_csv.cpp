@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "core/constraints/joint_rows.hpp"
 #include "core/io/csv_text.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/model/validate.hpp"
 
 namespace substep {
@@ -19,22 +19,11 @@ std::string start_of_line(const State& state, const std::string& name) {
 
 /// Distance by which the positions of a joint are apart [m].
 double gap_of(const State& state, const Joint& joint) {
-  const auto centre = [&](int body) { return body == kWorld ? kOrigin : state.x[index(body)]; };
-  const auto rotation = [&](int body) -> Mat3 {
-    return body == kWorld ? kUnturned : state.q[index(body)].toRotationMatrix();
-  };
-  const int a = base(joint).a;
-  const int b = base(joint).b;
-  const Vec3 x_a = centre(a);
-  const Vec3 x_b = centre(b);
-  const Mat3 R_a = rotation(a);
-  const Mat3 R_b = rotation(b);
-  Block block;
-  with_joint_rows(joint, [&](auto rows, const auto& own) {
-    rows.constants(own, block);
-    rows.rows(rows.geometry(own), Side{x_a, R_a}, Side{x_b, R_b}, block);
-  });
-  return gap_of(block);
+  const JointBase& j = base(joint);
+  const Vec3 on_a = state.x[index(j.a)] + state.q[index(j.a)] * j.anchor_a;
+  if (j.b == kWorld) return gap_of(joint, on_a - j.anchor_b, Quat::Identity()).norm();
+  const Quat& q_b = state.q[index(j.b)];
+  return gap_of(joint, on_a - (state.x[index(j.b)] + q_b * j.anchor_b), q_b).norm();
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ namespace substep {
 /// m s]
 void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row, double impulse);
 
-/// kappa of rows with a common compliance, for their softest direction. @param dt_t dt t [s^2]
+/// kappa of rows with a common compliance, in the direction of the largest mobility; 0 if nothing
+/// moves. @param dt_t dt t [s^2]
 double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, const Block& joint,
                     int first, int end);
 inline constexpr double kResolved = 0.25;  ///< Störmer prescribes spring forces up to this kappa

@@ -278,5 +278,42 @@ TEST(SoftJoints, DoNotDependOnUnits) {
   }
 }
 
+// Rows of a ball joint are along the world's axes. Half of the joints are stiff: the blend into
+// implicit Euler depends on the mobility of their rows.
+TEST(SoftJoints, HaveNoPreferredDirection) {
+  const Quat R(Eigen::AngleAxisd(1.3, Vec3(0.3, -0.5, 0.8).normalized()));
+  Random random(6);
+  for (int trial = 0; trial < 4; ++trial) {
+    Scene scene = soft_chain(random);
+    base(scene.joints[1]).compliance *= 1e-2;
+    const Scene turned = transformed(scene, R, Vec3::Zero());
+    std::vector<Method> all = methods();
+    all.push_back({"default", substep::Settings{}, 0.0});
+    for (const Method& method : all) {
+      Settings settings = method.settings;
+      const auto rates = [&](const Scene& of, State& end) {
+        std::vector<double> r;
+        end = run(
+                  of, settings, 0.5,
+                  [&](const Simulator&, const FrameReport& report) {
+                    r.push_back(report.r_stiffness);
+                  },
+                  false)
+                  .end;
+        return r;
+      };
+      State here;
+      State there;
+      const std::vector<double> expected = rates(scene, here);
+      const std::vector<double> found = rates(turned, there);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_NEAR(found[i], expected[i], 1e-9 * expected[i]) << method.name << ", frame " << i;
+      }
+      EXPECT_LT((there.x[2] - R * here.x[2]).norm(), 1e-9) << method.name << ", chain " << trial;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace substep::test

@@ -21,6 +21,10 @@ inline Scene transformed(Scene scene, const Quat& R, const Vec3& by) {
     if (base(joint).b != kWorld) continue;
     base(joint).anchor_b = R * base(joint).anchor_b + by;
     if (auto* hinge = std::get_if<HingeJoint>(&joint)) hinge->axis_b = R * hinge->axis_b;
+    if (auto* slide = std::get_if<PrismaticJoint>(&joint)) {
+      slide->axis_b = R * slide->axis_b;
+      slide->across_b = R * slide->across_b;
+    }
   }
   return scene;
 }

@@ -46,7 +46,7 @@ RotationCriterion::RotationCriterion(const Scene& scene) {
         if (moves(scene, body)) ++joints[index(body)];
       }
     }
-    if (!scene.effects.contact) find_pendulums(scene, joints);
+    find_pendulums(scene, joints);
   }
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Body& body = scene.bodies[i];

@@ -18,6 +18,19 @@ inline double dot_curvature(const Vec3& s, const Vec3& t, const Vec3& omega_a,
 // C     = u . v                        u rotates with a, v with b
 // dC/dt = (omega_a x u) . v + u . (omega_b x v) = omega_a . (u x v) - omega_b . (u x v)
 
+/// Adds to K the derivative of a torque on a and its opposite on b, as the mean of both orders of
+/// the bodies. @param by_a derivative of the torque on a by the rotation of a; by that of b it is
+/// minus the transpose
+void add_mean_couple(const Block& block, const Mat3& by_a, auto& K) {
+  const Mat3 mean = 0.5 * (by_a - by_a.transpose());
+  if (block.a >= 0) K.add_angular(block.a, block.a, mean);
+  if (block.b >= 0) K.add_angular(block.b, block.b, -mean);
+  if (block.a >= 0 && block.b >= 0) {
+    K.add_angular(block.a, block.b, mean);
+    K.add_angular(block.b, block.a, -mean);
+  }
+}
+
 /// A hinge: rows 0..2 of a ball joint, and rows 3, 4, phi = u . v_k [-], which keep the axes
 /// parallel. The functions are documented in JointRows.
 struct HingeRows {
@@ -96,6 +109,13 @@ struct HingeRows {
     const Vec3 couple = (a.R * block.axis).cross(b.R * w) - block.axis.cross(w);
     on_a.tail<3>() += (a.R * block.r_a - block.r_a).cross(f) + couple;
     on_b.tail<3>() -= (b.R * block.r_b - block.r_b).cross(f) + couple;
+  }
+
+  // The rows in the other order of the bodies have w -> -w: the mean of both blocks of K.
+  static void mean_stiffness(const Block& block, auto& K) {
+    BallRows::stiffness(block, K);
+    const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
+    add_mean_couple(block, skew_product(w, block.axis), K);
   }
 
  private:

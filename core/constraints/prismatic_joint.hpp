@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/constraints/hinge_joint.hpp"
+#include "core/constraints/fixed_axes.hpp"
 
 namespace substep {
 
@@ -13,33 +13,24 @@ namespace substep {
 // C     = v . d
 // dC/dt = v . (v_a + omega_a x r_a - v_b) - (rho x v) . omega_b
 // so J_a = [ v  r_a x v ],  J_b = -[ v  rho x v ].
-//
-// Angular rows, with s fixed in a and t in b, as for a hinge:
-// C     = s . t
-// dC/dt = (s x t) . (omega_a - omega_b)
 
 /// A prismatic joint: rows 0, 1, phi = v_k . d [m], leave the anchor on a free only along the axis;
-/// rows 2, 3, phi = u . v_k, and row 4, phi = w . v_2 [-], prevent relative rotation. u, w are the
-/// axis and the direction perpendicular to it in a; v_1 is that direction in b and v_2 completes
-/// b's axes. The functions are documented in JointRows.
+/// rows 2..4 prevent relative rotation. The functions are documented in JointRows.
 struct PrismaticRows {
+  using Turn = FixedAxes<2>;
+
   static void constants(const PrismaticJoint& joint, Block& block) {
     block.rows = 5;
     block.position_rows = 2;
     block.has_point_rows = false;
     std::fill_n(block.active_set, kMaxRows, std::int8_t{0});  // rows of joints have no bounds
     std::fill_n(block.C, 2, joint.compliance);
-    std::fill_n(block.C + 2, 3, joint.angular_compliance);
+    Turn::constants(joint.angular_compliance, block);
   }
 
   static JointGeometry geometry(const PrismaticJoint& joint) {
-    JointGeometry geometry{joint.anchor_a, joint.anchor_b, joint.axis_a};
-    const auto across_axis = [](const Vec3& axis, const Vec3& v) -> Vec3 {
-      return (v - axis * axis.dot(v)).normalized();
-    };
-    geometry.w = across_axis(joint.axis_a, joint.across_a);
-    geometry.v1 = across_axis(joint.axis_b, joint.across_b);
-    geometry.v2 = joint.axis_b.cross(geometry.v1);
+    JointGeometry geometry{joint.anchor_a, joint.anchor_b};
+    Turn::set_geometry(joint, geometry);
     return geometry;
   }
 
@@ -49,15 +40,9 @@ struct PrismaticRows {
     block.r_a = r_a;
     block.r_b = (a.x - b.x) + r_a;
     block.rho = b.R * joint.anchor_b;
-    block.axis = a.R * joint.u;
-    block.w = a.R * joint.w;
-    block.v1 = b.R * joint.v1;
-    block.v2 = b.R * joint.v2;
+    Turn::rows(joint, a, b, block);
     block.phi[0] = block.v1.dot(d);
     block.phi[1] = block.v2.dot(d);
-    block.phi[2] = block.axis.dot(block.v1);
-    block.phi[3] = block.axis.dot(block.v2);
-    block.phi[4] = block.w.dot(block.v2);
     set_gradients(block, {});
   }
 
@@ -75,9 +60,7 @@ struct PrismaticRows {
       curvature[k] =
           omega_b.cross(v_dot).dot(block.r_b) + 2.0 * v_dot.dot(rho_dot) + v.dot(rho_ddot);
     }
-    curvature[2] = dot_curvature(block.axis, block.v1, omega_a, omega_b);
-    curvature[3] = dot_curvature(block.axis, block.v2, omega_a, omega_b);
-    curvature[4] = dot_curvature(block.w, block.v2, omega_a, omega_b);
+    Turn::curvature(block, omega_a, omega_b, curvature);
   }
 
   // The force f = l_1 v_1 + l_2 v_2 on a at r_a, -f on b at rho. It rotates with b:
@@ -87,7 +70,7 @@ struct PrismaticRows {
   static void stiffness(const Block& block, auto& K) {
     const Vec3 f = force(block, block.lambda);
     const Mat3 F = skew(f);
-    const Mat3 by_a = angular_stiffness(block);
+    const Mat3 by_a = Turn::stiffness(block);
     const Mat3 by_b = by_a.transpose();
     if (block.a >= 0) K.add_angular(block.a, block.a, skew_product(f, block.r_a) + by_a);
     if (block.b < 0) return;
@@ -113,10 +96,7 @@ struct PrismaticRows {
     moved.r_b = slid_rho(start, a, b);
     moved.r_a = a.R * start.r_a;
     moved.rho = b.R * start.rho;
-    moved.axis = a.R * start.axis;
-    moved.w = a.R * start.w;
-    moved.v1 = b.R * start.v1;
-    moved.v2 = b.R * start.v2;
+    Turn::move(start, a, b, moved);
     set_gradients(moved, rows);
   }
 
@@ -125,36 +105,33 @@ struct PrismaticRows {
     const Vec3 slid = b.R.transpose() * slid_rho(start, a, b) - start.r_b;
     phi[0] = start.v1.dot(slid);
     phi[1] = start.v2.dot(slid);
-    const Vec3 axis = a.R * start.axis;
-    const Vec3 v2 = b.R * start.v2;
-    phi[2] = axis.dot(b.R * start.v1) - start.axis.dot(start.v1);
-    phi[3] = axis.dot(v2) - start.axis.dot(start.v2);
-    phi[4] = (a.R * start.w).dot(v2) - start.w.dot(start.v2);
+    Turn::moved_errors(start, a, b, phi);
   }
 
   static Vec3 force(const Block& block, const double* force) {
     return force[0] * block.v1 + force[1] * block.v2;
   }
 
-  static Vec3 torque(const Block& block, const double* force) {
-    return block.axis.cross(force[2] * block.v1 + force[3] * block.v2) +
-           force[4] * block.w.cross(block.v2);
-  }
+  static Vec3 torque(const Block& block, const double* force) { return Turn::torque(block, force); }
 
   static void push_change(const Block& block, const Motion& a, const Motion& b, const double* force,
                           Vec6& on_a, Vec6& on_b) {
     const Vec3 f = PrismaticRows::force(block, force);
     const Vec3 f_moved = b.R * f;
-    const Vec3 across = force[2] * block.v1 + force[3] * block.v2;
-    const Vec3 couple_moved =
-        (a.R * block.axis).cross(b.R * across) + force[4] * (a.R * block.w).cross(b.R * block.v2);
-    const Vec3 couple = couple_moved - torque(block, force);
+    const Vec3 couple = Turn::moved_torque(block, a, b, force) - torque(block, force);
     const Vec3 turned = (a.R * block.r_a).cross(f_moved) - block.r_a.cross(f) + couple;
     const Vec3 slid = slid_rho(block, a, b).cross(f_moved) - block.r_b.cross(f) + couple;
     on_a.head<3>() += f_moved - f;
     on_a.tail<3>() += turned;
     on_b.head<3>() -= f_moved - f;
     on_b.tail<3>() -= slid;
+  }
+
+  static void mean_stiffness(const Block& block, auto& K) {
+    Block half = block;
+    for (double& lambda : half.lambda) lambda *= 0.5;
+    stiffness(half, K);
+    stiffness(exchanged(half), K);
   }
 
   /// The joint with a and b exchanged, with the same forces on the bodies: at the anchor on b, in
@@ -189,22 +166,7 @@ struct PrismaticRows {
       set_row(block, 0, block.v1);
       set_row(block, 1, block.v2);
     }
-    if (!rows.reaches(2, 5)) return;
-    const Vec3 turn[3] = {block.axis.cross(block.v1), block.axis.cross(block.v2),
-                          block.w.cross(block.v2)};
-    for (int k = 0; k < 3; ++k) {
-      for (int j = 0; j < 6; ++j) {
-        block.J_a[2 + k][j] = j < 3 ? 0.0 : turn[k][j - 3];
-        block.J_b[2 + k][j] = -block.J_a[2 + k][j];
-      }
-    }
-  }
-
-  /// Derivative of the torque on a of the angular rows by the rotation of a: the sum of l [t][s],
-  /// as for a hinge.
-  static Mat3 angular_stiffness(const Block& block) {
-    const Vec3 across = block.lambda[2] * block.v1 + block.lambda[3] * block.v2;
-    return skew_product(across, block.axis) + block.lambda[4] * skew_product(block.v2, block.w);
+    if (rows.reaches(2, 5)) Turn::set_gradients(block);
   }
 };
 

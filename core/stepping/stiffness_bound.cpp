@@ -10,19 +10,6 @@ StiffnessStage::StiffnessStage(const Scene& scene) {
   K_.reserve(scene.bodies.size(), joints + contacts);
 }
 
-// Some joints have other rows if a and b are exchanged. K then differs in the directions that the
-// joint does not leave free; the mean of both does not depend on the order of the bodies.
-void StiffnessStage::add(auto joint, const Block& block) {
-  if constexpr (requires { joint.exchanged(block); }) {
-    Block half = block;
-    for (double& lambda : half.lambda) lambda *= 0.5;
-    joint.stiffness(half, K_);
-    joint.stiffness(joint.exchanged(half), K_);
-  } else {
-    joint.stiffness(block, K_);
-  }
-}
-
 void StiffnessStage::evaluate(const Scene& scene, std::span<const Block> blocks, ContactTerms terms,
                               const Part& part, std::span<const Mat3> R_WB, std::vector<Vec6>& k) {
   K_.clear(R_WB.size());
@@ -30,7 +17,13 @@ void StiffnessStage::evaluate(const Scene& scene, std::span<const Block> blocks,
     if (block.is_contact()) {
       contact_stiffness(block, terms, K_);
     } else {
-      with_joint_rows(block.kind, [&](auto joint) { add(joint, block); });
+      with_joint_rows(block.kind, [&](auto joint) {
+        if constexpr (requires { joint.mean_stiffness(block, K_); }) {
+          joint.mean_stiffness(block, K_);
+        } else {
+          joint.stiffness(block, K_);
+        }
+      });
     }
   }
   k.resize(R_WB.size(), Vec6::Zero());

@@ -27,8 +27,6 @@ class StiffnessStage {
   [[nodiscard]] const StiffnessMatrix& matrix() const { return K_; }
 
  private:
-  void add(auto joint, const Block& block);
-
   StiffnessMatrix K_;
 };
 

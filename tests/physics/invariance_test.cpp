@@ -313,6 +313,65 @@ TEST(Invariance, AnOpenContactDoesNotChangeTheMotion) {
   }
 }
 
+// Of a pendulum whose N the rotation criterion remembers, above a floor.
+TEST(Invariance, AnOpenContactDoesNotChangeTheSubsteps) {
+  SceneBuilder builder("pendulum");
+  builder.scene().gravity = {0.0, -kGravity, 0.0};
+  builder.add_body(Box{{0.3, 0.1, 0.05}}, 1.0, {0.3, 0.0, 0.0});
+  builder.add_hinge(0, kWorld, Vec3::Zero(), Vec3::UnitZ());
+  builder.add_fixed(Plane{}, {0.0, -1.0, 0.0});
+  Scene scene = *builder.build();
+  scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
+  const Case c{"pendulum", scene, 3.0, 1e-12};
+  substep::Settings settings;
+  settings.alpha = 0.01;
+  const Outcome expected = run(scene, settings, c.seconds);
+  EXPECT_GT(expected.n_max(), expected.n[0]);
+  scene.effects.contact = true;
+  expect_same(c, expected, run(scene, settings, c.seconds), Quat::Identity(), Vec3::Zero());
+}
+
+/// Three unequal boxes on two hinges of different directions, in free flight.
+Scene tumbling_hinges() {
+  SceneBuilder builder("hinges");
+  const Vec3 spin{3.0, -5.0, 4.0};
+  const Vec3 half[] = {{0.3, 0.15, 0.05}, {0.1, 0.2, 0.3}, {0.2, 0.05, 0.1}};
+  for (int i = 0; i < 3; ++i) {
+    builder.add_body(Box{half[i]}, 1.0 + i, {0.6 * i, 0.1 * i, 0.0});
+    builder.body(i).angular_velocity = spin;
+    builder.body(i).velocity = spin.cross(builder.body(i).position);
+  }
+  builder.add_hinge(0, 1, {0.25, 0.1, 0.05}, Vec3(0.6, -0.3, 0.5).normalized());
+  builder.add_hinge(2, 1, {0.9, 0.0, -0.1}, Vec3(0.1, 0.8, 0.2).normalized());
+  Scene scene = *builder.build();
+  scene.effects = {.gyroscopic = true, .joints = true};
+  scene.criteria.track = 1;
+  return scene;
+}
+
+TEST(Invariance, SubstepsDoNotDependOnTheOrderOfAHinge) {
+  const auto rates = [](const Scene& of) {
+    std::vector<double> r;
+    run(of, substep::Settings{}, 0.5,
+        [&](const Simulator&, const FrameReport& report) { r.push_back(report.r_stiffness); });
+    return r;
+  };
+  Scene scene = tumbling_hinges();
+  const std::vector<double> expected = rates(scene);
+  ASSERT_GT(*std::min_element(expected.begin(), expected.end()), 1.0);
+  for (Joint& joint : scene.joints) {
+    auto& hinge = std::get<HingeJoint>(joint);
+    std::swap(hinge.a, hinge.b);
+    std::swap(hinge.anchor_a, hinge.anchor_b);
+    std::swap(hinge.axis_a, hinge.axis_b);
+  }
+  const std::vector<double> found = rates(scene);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_NEAR(found[i], expected[i], 1e-9 * expected[i]) << "frame " << i;
+  }
+}
+
 // K of a slide has forces and torques, and is written for a and b. Two unequal boxes tumble in
 // space and slide along each other; the anchors are not in the centres.
 TEST(Invariance, SubstepsDoNotDependOnUnitsOrTheOrderOfASlide) {

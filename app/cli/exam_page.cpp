@@ -56,7 +56,6 @@ bar a thousandth; green bars are within it.</p>
 )";
 
 const char* css_class(const ExamOutcome& outcome) {
-  if (!outcome.reached_by_vocabulary()) return "absent";
   return outcome.result.passed() ? "passes" : "fails";
 }
 
@@ -102,25 +101,19 @@ std::string exam_page(const std::vector<ExamOutcome>& outcomes) {
   html += "<div class=\"scroll\"><table><thead><tr><th>case<th>verdict</thead><tbody>\n";
   for (const ExamOutcome& outcome : outcomes) {
     html += "<tr><td><a href=\"#" + outcome.entry->name + "\">" + xml_text(outcome.entry->title) +
-            "</a><td>" +
-            (outcome.reached_by_vocabulary() ? std::string(css_class(outcome))
-                                             : xml_text(verdict_of(outcome))) +
-            "\n";
+            "</a><td>" + css_class(outcome) + "\n";
   }
   html += "</tbody></table></div>\n";
   for (const ExamOutcome& outcome : outcomes) {
     html += std::string("<section class=\"claim ") + css_class(outcome) + "\" id=\"" +
             outcome.entry->name + "\">\n<h2>" + xml_text(outcome.entry->title) + "</h2>\n";
-    if (outcome.reached_by_vocabulary()) {
-      html += "<p>" + xml_text(outcome.exam.definition) + "</p>\n<p class=\"note\">From " +
-              xml_text(outcome.exam.source) + ".</p>\n" + table(outcome) + "<ul>\n";
-      for (const ExamQuantity& quantity : outcome.exam.quantities) {
-        html += "<li>" + xml_text(quantity.name + ": " + quantity.why) +
-                (quantity.for_every_run ? "; required of every run" : "") + "\n";
-      }
-      html += "</ul>\n";
+    html += "<p>" + xml_text(outcome.exam.definition) + "</p>\n<p class=\"note\">From " +
+            xml_text(outcome.exam.source) + ".</p>\n" + table(outcome) + "<ul>\n";
+    for (const ExamQuantity& quantity : outcome.exam.quantities) {
+      html += "<li>" + xml_text(quantity.name + ": " + quantity.why) +
+              (quantity.for_every_run ? "; required of every run" : "") + "\n";
     }
-    html += "<p class=\"stamp\">" + xml_text(verdict_of(outcome)) + "</p>\n</section>\n";
+    html += "</ul>\n<p class=\"stamp\">" + xml_text(verdict_of(outcome)) + "</p>\n</section>\n";
   }
   return html + "</main>\n</body>\n</html>\n";
 }

@@ -54,7 +54,6 @@ std::string broken_text(const ExamOutcome& outcome) {
 }  // namespace
 
 std::string verdict_of(const ExamOutcome& outcome) {
-  if (!outcome.reached_by_vocabulary()) return "not supported: " + outcome.entry->not_reached;
   if (outcome.result.passed()) return "passes";
   std::string text = "fails: ";
   if (!outcome.result.reached) text += "no run is within the tolerances";
@@ -64,10 +63,6 @@ std::string verdict_of(const ExamOutcome& outcome) {
 
 void print_case(const ExamOutcome& outcome) {
   say(stdout, "%s: %s\n", outcome.entry->name.c_str(), outcome.entry->title.c_str());
-  if (!outcome.reached_by_vocabulary()) {
-    say(stdout, "  %s\n\n", verdict_of(outcome).c_str());
-    return;
-  }
   const ExamCase& exam = outcome.exam;
   say(stdout, "  %s\n  From %s.\n", exam.definition.c_str(), exam.source.c_str());
   for (std::size_t i = 0; i < exam.quantities.size(); ++i) {
@@ -93,23 +88,17 @@ void print_case(const ExamOutcome& outcome) {
 }
 
 void print_summary(const std::vector<ExamOutcome>& outcomes) {
-  int passed = 0;
-  int run = 0;
+  std::size_t passed = 0;
   for (const ExamOutcome& outcome : outcomes) {
-    std::string text = verdict_of(outcome);
-    if (outcome.reached_by_vocabulary()) {
-      ++run;
-      passed += outcome.result.passed() ? 1 : 0;
-      text = outcome.result.passed() ? "passes  " : "FAILS   ";
-      text += outcome.result.passed() || !outcome.result.reached ? best_text(outcome) : "";
-      if (!outcome.result.kept) {
-        text += (outcome.result.reached ? "" : "; ") + broken_text(outcome);
-      }
+    passed += outcome.result.passed() ? 1U : 0U;
+    std::string text = outcome.result.passed() ? "passes  " : "FAILS   ";
+    text += outcome.result.passed() || !outcome.result.reached ? best_text(outcome) : "";
+    if (!outcome.result.kept) {
+      text += (outcome.result.reached ? "" : "; ") + broken_text(outcome);
     }
     say(stdout, "%-16s %s\n", outcome.entry->name.c_str(), text.c_str());
   }
-  say(stdout, "%d of %d cases pass; %zu not supported\n", passed, run,
-      outcomes.size() - static_cast<std::size_t>(run));
+  say(stdout, "%zu of %zu cases pass\n", passed, outcomes.size());
 }
 
 Json exam_json(const std::vector<ExamOutcome>& outcomes) {
@@ -119,11 +108,6 @@ Json exam_json(const std::vector<ExamOutcome>& outcomes) {
     Json json{{"case", outcome.entry->name},
               {"title", outcome.entry->title},
               {"verdict", verdict_of(outcome)}};
-    if (!outcome.reached_by_vocabulary()) {
-      json["passes"] = nullptr;
-      list.push_back(std::move(json));
-      continue;
-    }
     json["passes"] = outcome.result.passed();
     json["definition"] = outcome.exam.definition;
     json["source"] = outcome.exam.source;

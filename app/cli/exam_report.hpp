@@ -9,15 +9,14 @@
 
 namespace substep::cli {
 
-/// A case and its result. Exam and result are empty if the scene format cannot express the case.
+/// A case and its result.
 struct ExamOutcome {
   const ExamEntry* entry = nullptr;
   ExamCase exam;
   ExamResult result;
-  [[nodiscard]] bool reached_by_vocabulary() const { return entry->not_reached.empty(); }
 };
 
-/// "passes", "fails: ..." with the reason, or "not supported: needs springs".
+/// "passes", or "fails: ..." with the reason.
 std::string verdict_of(const ExamOutcome& outcome);
 
 /// Prints a case with its tolerances and all runs to standard output.

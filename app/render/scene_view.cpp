@@ -240,14 +240,16 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
       thin = 0.15 * bracket;
       add_rod(out.boxes, poses.x[a], x, thin, palette.joint);
     }
+    const auto b = static_cast<std::size_t>(j.b);
+    const Vec3 from = j.b == kWorld ? j.anchor_b : poses.x[b] + poses.q[b] * j.anchor_b;
+    if (length_of(joint) && from != x) add_rod(out.boxes, from, x, 0.15 * bracket, palette.joint);
     if (!options.joints) continue;
     const double r = 1.25 * std::min(thin, 0.25 * home_.radius);
-    if (const auto axes = axes_of(joint)) {
-      if (axes->slides) {  // the path from the anchor on b
-        const auto b = static_cast<std::size_t>(j.b);
-        const Vec3 from = j.b == kWorld ? j.anchor_b : poses.x[b] + poses.q[b] * j.anchor_b;
-        if (from != x) add_rod(out.boxes, from, x, 0.3 * r, palette.joint);
-      }
+    if (is_weld(joint)) {
+      add_box(out.boxes, x, poses.q[a], Vec3::Constant(r), 0.2 * r, palette.joint);
+    } else if (const auto axes = axes_of(joint)) {
+      // The path from the anchor on b.
+      if (axes->slides && from != x) add_rod(out.boxes, from, x, 0.3 * r, palette.joint);
       const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * axes->a);
       add_box(out.boxes, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);
     } else {

@@ -158,7 +158,7 @@ void draw_joint_frames(const Sketch& in) {
     const Quat& q = poses.q[static_cast<std::size_t>(j.a)];
     const Vec3 at = anchor_of(in.session, j);
     const double px = pixel_size(in.viewport, at);
-    if (const auto axes = axes_of(joint)) {
+    if (const auto axes = axes_of(joint); axes && !is_weld(joint)) {
       const Vec3 axis = 22.0 * px * (q * axes->a);
       if (const auto s = seen(in, at - axis, at + axis)) {
         draw_line(in, *s, t.purple, 2.0F);

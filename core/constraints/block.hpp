@@ -66,15 +66,16 @@ struct Block {
   // else 0; and the part of bias[2] that averages its sliding over the sub-step [m/s].
   double sliding = 0.0;
   double across = 0.0;
-  Vec3 n = Vec3::Zero();   // from b to a, world
+  Vec3 n = Vec3::Zero();   // from b to a, world; also of a distance joint
   Vec3 t1 = Vec3::Zero();  // tangents, world; set only with friction
   Vec3 t2 = Vec3::Zero();
   // From the centre of b to the touching point of a, gap included [m]. Prismatic: to b's anchor.
+  // Distance: from the anchor on b to that on a.
   Vec3 rho = Vec3::Zero();
   Vec3 arm_a = Vec3::Zero();  // from a's centre to the point that rotates with a (0 for a sphere)
   Mat3 H = Mat3::Zero();      // curvature of b's distance field at a's point [1/m]: dn = H dx
-  // Joints with an axis, world: axis u fixed in a, and v1, v2 across it fixed in b. Prismatic: w
-  // across the axis fixed in a.
+  // Joints with an axis, world: axis u fixed in a, and v1, v2 across it fixed in b. If the
+  // orientation is fixed: w across the axis fixed in a.
   Vec3 axis = Vec3::Zero();
   Vec3 v1 = Vec3::Zero();
   Vec3 v2 = Vec3::Zero();

@@ -19,11 +19,12 @@ struct JointGeometry {
   Vec3 anchor_a = Vec3::Zero();  // [m]
   Vec3 anchor_b = Vec3::Zero();
   // Joints with an axis: u in the frame of a; v1, v2 perpendicular to it in the frame of b.
-  // Prismatic: w perpendicular to it in the frame of a.
+  // Fixed orientation: w perpendicular to it in the frame of a.
   Vec3 u = Vec3::Zero();
   Vec3 v1 = Vec3::Zero();
   Vec3 v2 = Vec3::Zero();
   Vec3 w = Vec3::Zero();
+  double length = 0.0;  // of a distance joint [m]
 };
 
 /// Change of a body's pose since its rows were computed. Zero for the world and static bodies.

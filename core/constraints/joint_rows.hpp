@@ -9,9 +9,11 @@
 #include <variant>
 
 #include "core/constraints/ball_joint.hpp"
+#include "core/constraints/distance_joint.hpp"
 #include "core/constraints/hinge_joint.hpp"
 #include "core/constraints/prismatic_joint.hpp"
 #include "core/constraints/stiffness_matrix.hpp"
+#include "core/constraints/weld_joint.hpp"
 
 namespace substep {
 
@@ -31,6 +33,8 @@ concept JointRows = requires(const J& joint, Block& block, const Block& start,
   { Rows::curvature(start, velocity, velocity, out) } -> std::same_as<void>;
   // Adds d(J^T lambda)/dq to K, or to a class with its functions (turning_stiffness.cpp).
   { Rows::stiffness(start, K) } -> std::same_as<void>;
+  // Optional, if K depends on the order of the bodies in directions that the joint does not leave
+  // free: mean_stiffness(block, K), the mean of both orders, from which N follows.
   // Change of phi, and J, of some rows after a and b have moved; or the change of phi alone, for
   // all rows.
   { Rows::move(start, motion, motion, range, block) } -> std::same_as<void>;
@@ -43,7 +47,7 @@ concept JointRows = requires(const J& joint, Block& block, const Block& start,
 };
 
 /// In the order of the Joint variant.
-using JointTable = std::tuple<BallRows, HingeRows, PrismaticRows>;
+using JointTable = std::tuple<BallRows, HingeRows, PrismaticRows, WeldRows, DistanceRows>;
 
 inline constexpr std::size_t kJointKinds = std::variant_size_v<Joint>;
 static_assert(std::tuple_size_v<JointTable> == kJointKinds);

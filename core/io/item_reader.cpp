@@ -106,7 +106,8 @@ struct OwnFieldReader {
     }
   }
   void operator()(std::string_view key, double& number, const Range& range) const {
-    in.number(key, range, number, kOptional);
+    // One that may not be 0 has no default.
+    in.number(key, range, number, range.contains(0.0) ? kOptional : kRequired);
   }
 };
 

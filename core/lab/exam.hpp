@@ -72,7 +72,6 @@ struct ExamCase {
 struct ExamEntry {
   std::string name;
   std::string title;
-  std::string not_reached;  // the missing feature that prevents it, or empty
   ExamCase (*build)() = nullptr;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/lab/experiment.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/model/validate.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -109,6 +110,7 @@ std::pair<double, int> hanging_bound(const Scene& scene) {
   const JointGraph graph(scene);
   const double g = scene.effects.gravity ? scene.gravity.norm() : 0.0;
   std::vector<Vec3> k(scene.bodies.size(), Vec3::Zero());  // about the principal axes [N m/rad]
+  std::pair<double, int> most{0.0, -1};
   const auto add = [&](int body, const Vec3& arm, double force) {
     if (body == kWorld) return;
     for (int e = 0; e < 3; ++e) {
@@ -120,8 +122,14 @@ std::pair<double, int> hanging_bound(const Scene& scene) {
     const double force = graph.load(joint) * g;
     add(j.a, j.anchor_a, force);
     add(j.b, j.anchor_b, force);
+    const std::optional<double> length = length_of(joint);
+    if (!length) continue;
+    for (const int body : {j.a, j.b}) {  // K of a taut rod across it: force/length
+      if (is_fixed(scene, body)) continue;
+      const double r = force / (*length * scene.bodies[index(body)].mass);
+      if (r > most.first) most = {r, body};
+    }
   }
-  std::pair<double, int> most{0.0, -1};
   for (std::size_t i = 0; i < k.size(); ++i) {
     if (scene.bodies[i].is_static) continue;
     const double r = k[i].cwiseQuotient(scene.bodies[i].inertia).maxCoeff();

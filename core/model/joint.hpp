@@ -70,7 +70,39 @@ struct PrismaticJoint : JointBase {
   }
 };
 
-using Joint = std::variant<BallJoint, HingeJoint, PrismaticJoint>;
+/// The two anchors coincide and the relative orientation is fixed, as for a prismatic joint: 6
+/// rows.
+struct WeldJoint : JointBase {
+  static constexpr const char* kType = "weld";
+  Vec3 axis_a = Vec3::UnitX();      // unit, in the frame of a [-]
+  Vec3 axis_b = Vec3::UnitX();      // unit, in the frame of b, or in the world for kWorld [-]
+  Vec3 across_a = Vec3::UnitY();    // unit, perpendicular to axis_a [-]
+  Vec3 across_b = Vec3::UnitY();    // unit, perpendicular to axis_b [-]
+  double angular_compliance = 0.0;  // C of the three angular rows [rad/(N m)], >= 0
+
+  template <class J, class Field>
+  static void own_fields(J& joint, Field&& field) {
+    field("axis_a", joint.axis_a);
+    field("axis_b", joint.axis_b);
+    field("across_a", joint.across_a);
+    field("across_b", joint.across_b);
+    field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
+  }
+};
+
+/// The two anchors keep their distance, like a rod without mass; with compliance a spring of that
+/// free length. 1 row.
+struct DistanceJoint : JointBase {
+  static constexpr const char* kType = "distance";
+  double length = 1.0;  // [m], > 0
+
+  template <class J, class Field>
+  static void own_fields(J& joint, Field&& field) {
+    field("length", joint.length, kSizeRange);
+  }
+};
+
+using Joint = std::variant<BallJoint, HingeJoint, PrismaticJoint, WeldJoint, DistanceJoint>;
 
 inline const JointBase& base(const Joint& joint) {
   return std::visit([](const auto& j) -> const JointBase& { return j; }, joint);

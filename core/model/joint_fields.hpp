@@ -35,10 +35,30 @@ inline std::optional<JointAxes> axes_of(const Joint& joint) {
       joint);
 }
 
-/// The error part of the vector between a joint's anchors: all of it, or for a sliding joint the
-/// component perpendicular to the axis. @param apart from the anchor on b to that on a, world [m]
-/// @param q_b orientation of b
+/// The distance that a joint keeps between its anchors [m]; nothing if they coincide or slide.
+inline std::optional<double> length_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> std::optional<double> {
+        if constexpr (requires { j.length; }) return j.length;
+        return std::nullopt;
+      },
+      joint);
+}
+
+/// True if a joint fixes the position and the orientation of its bodies relative to each other.
+inline bool is_weld(const Joint& joint) {
+  const std::optional<JointAxes> axes = axes_of(joint);
+  return axes && !axes->slides && across_of(joint);
+}
+
+/// The error part of the vector between a joint's anchors: all of it, for a sliding joint the
+/// component perpendicular to the axis, and for a distance joint what exceeds its length.
+/// @param apart from the anchor on b to that on a, world [m]  @param q_b orientation of b
 inline Vec3 gap_of(const Joint& joint, const Vec3& apart, const Quat& q_b) {
+  if (const std::optional<double> length = length_of(joint)) {
+    const double distance = apart.norm();
+    return distance > 0.0 ? Vec3((1.0 - *length / distance) * apart) : Vec3(*length, 0.0, 0.0);
+  }
   const std::optional<JointAxes> axes = axes_of(joint);
   if (!axes || !axes->slides) return apart;
   const Vec3 axis = q_b * axes->b;

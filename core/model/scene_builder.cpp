@@ -31,6 +31,17 @@ void place(const Scene& scene, int a, int b, const Vec3& point, JointBase& joint
   joint.anchor_b = point_in(scene, b, point);
 }
 
+/// Sets the directions that a joint keeps parallel. @param along world, unit
+void fix_axes(const Scene& scene, const Vec3& along, auto& joint) {
+  Vec3 v1;
+  Vec3 v2;
+  across(along, v1, v2);
+  joint.axis_a = axis_in(scene, joint.a, along);
+  joint.axis_b = axis_in(scene, joint.b, along);
+  joint.across_a = axis_in(scene, joint.a, v1);
+  joint.across_b = axis_in(scene, joint.b, v1);
+}
+
 }  // namespace
 
 SceneBuilder::SceneBuilder(std::string name) {
@@ -82,14 +93,22 @@ int SceneBuilder::add_hinge(int a, int b, const Vec3& point, const Vec3& axis) {
 int SceneBuilder::add_prismatic(int a, int b, const Vec3& point, const Vec3& axis) {
   PrismaticJoint joint;
   place(scene_, a, b, point, joint);
-  const Vec3 along = axis.normalized();
-  Vec3 v1;
-  Vec3 v2;
-  across(along, v1, v2);
-  joint.axis_a = axis_in(scene_, a, along);
-  joint.axis_b = axis_in(scene_, b, along);
-  joint.across_a = axis_in(scene_, a, v1);
-  joint.across_b = axis_in(scene_, b, v1);
+  fix_axes(scene_, axis.normalized(), joint);
+  return add(Joint(std::move(joint)));
+}
+
+int SceneBuilder::add_weld(int a, int b, const Vec3& point) {
+  WeldJoint joint;
+  place(scene_, a, b, point, joint);
+  fix_axes(scene_, Vec3::UnitX(), joint);
+  return add(Joint(std::move(joint)));
+}
+
+int SceneBuilder::add_distance(int a, int b, const Vec3& on_a, const Vec3& on_b) {
+  DistanceJoint joint;
+  place(scene_, a, b, on_a, joint);
+  joint.anchor_b = point_in(scene_, b, on_b);
+  joint.length = (on_a - on_b).norm();
   return add(Joint(std::move(joint)));
 }
 

@@ -30,6 +30,10 @@ class SceneBuilder {
   int add_hinge(int a, int b, const Vec3& point, const Vec3& axis);
   /// A point of a slides along an axis of b, without relative rotation.
   int add_prismatic(int a, int b, const Vec3& point, const Vec3& axis);
+  /// A weld at a point of the world: a keeps its position and orientation relative to b.
+  int add_weld(int a, int b, const Vec3& point);
+  /// A rod without mass from a point of b to a point of a, both in the world [m].
+  int add_distance(int a, int b, const Vec3& on_a, const Vec3& on_b);
 
   /// A body or joint by its returned index. Set orientation and position before adding joints.
   Body& body(int index) { return scene_.bodies[static_cast<std::size_t>(index)]; }

@@ -88,6 +88,7 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
   };
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     if (!is_sound(scene, sound, i)) continue;
+    if (length_of(scene.joints[i])) continue;  // up to six rods may hold a body
     if (base(scene.joints[i]).compliance == 0.0) note(stiff, i, "compliance", "m/N");
     if (angular_compliance_of(scene.joints[i]) == 0.0) {
       note(stiff_turning, i, "angular_compliance", "rad/(N m)");

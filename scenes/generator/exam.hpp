@@ -14,8 +14,10 @@ const std::vector<ExamEntry>& exam();
 ExamCase exam_simple_pendulum();
 ExamCase exam_revolute();
 ExamCase exam_spherical();
+ExamCase exam_distance();
 ExamCase exam_four_bar();
 ExamCase exam_bricard();
+ExamCase exam_squeezer();
 
 // Rotation: exam_rotation.cpp
 ExamCase exam_heavy_top();

@@ -12,21 +12,6 @@ namespace substep::scenes {
 /// @param n sub-steps per frame, ascending
 std::vector<ExamMethod> contact_methods(const Settings& base, const std::vector<double>& n);
 
-/// Whether bodies support a constant force; if not, the cases that need one are listed as not
-/// supported.
-template <class BodyType = Body>
-constexpr bool takes_force() {
-  return requires(BodyType body) { body.force; };
-}
-/// A constant force at the centre of a body, world [N].
-template <class SceneType, class BodyType>
-void pull(SceneType& scene, BodyType& body, const Vec3& force) {
-  if constexpr (requires { body.force = force; }) {
-    body.force = force;
-    scene.effects.external = true;
-  }
-}
-
 /// SimBenchmark's rolling test: constant accelerations along the force [m/s^2].
 struct RollingAccelerations {
   double box = 0.0;

@@ -72,6 +72,7 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
                             "SimBenchmark, its closed form", 4.0, 0.016);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .contact = true, .friction = true};
+  scene.effects.external = true;
   scene.gravity = {0.0, -kRollingGravity, 0.0};
   scene.settings.friction_cone = cone;
   scene.camera.eye = {14.0, 9.0, 18.0};
@@ -81,7 +82,7 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
   scene.bodies.back().friction = kOnGround * kOnGround / kOnBox;
   Body slab = solid("slab", box(20.0, 1.0, 20.0), kBoxMass, {0.0, 0.5, 0.0});
   slab.friction = kOnBox;
-  pull(scene, slab, kForce * along);
+  slab.force = kForce * along;
   scene.bodies.push_back(slab);
   for (int i = 0; i < kRollingSide; ++i) {
     for (int j = 0; j < kRollingSide; ++j) {

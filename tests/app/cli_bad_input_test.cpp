@@ -96,7 +96,7 @@ TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(run.err, path.string() + ": /bodies/0/mass: must be at least 1e-30 (kg), not -1\n" +
                          path.string() +
-                         ": /joints/0/type: must be ball, hinge or prismatic, not \"hnige\"\n");
+                         ": /joints/0/type: must be ball, hinge, prismatic, weld or distance, not \"hnige\"\n");
 }
 
 }  // namespace

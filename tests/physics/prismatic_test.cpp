@@ -15,74 +15,22 @@
 #include "core/model/scene_builder.hpp"
 #include "core/sim/conserved.hpp"
 #include "core/sim/start.hpp"
+#include "tests/support/joint_methods.hpp"
 #include "tests/support/keep_largest.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep {
 namespace {
 
+using test::const_settings;
+using test::error_after;
+using test::expect_order;
+using test::joint_methods;
+using test::JointMethod;
+
 constexpr double kFrame = 1.0 / 60.0;
 
-struct PrismaticMethod {
-  const char* name;
-  PaperSettings settings;
-  int order;  // of the integration
-};
-
-void PrintTo(const PrismaticMethod& method, std::ostream* out) { *out << method.name; }
-
-Settings settings_of(SolverKind solver, Integrator integrator, int n,
-                     Forces forces = Forces::kEnd) {
-  PaperSettings settings;
-  settings.mode = Mode::kConst;
-  settings.solver = solver;
-  settings.integrator = integrator;
-  settings.forces = forces;
-  settings.n = n;
-  settings.iterations = 400;      // for the iterative solvers
-  settings.drift = Drift::kFull;  // the default of PGS corrects errors at its own rate
-  return settings;
-}
-
-std::vector<PrismaticMethod> prismatic_methods() {
-  return {
-      {"Bpp", settings_of(SolverKind::kBpp, Integrator::kEuler, 8), 1},
-      {"BppLeapfrog", settings_of(SolverKind::kBpp, Integrator::kLeapfrog, 8), 2},
-      {"BppStormer", settings_of(SolverKind::kBpp, Integrator::kStormer, 8), 4},
-      {"Pgs", settings_of(SolverKind::kPgs, Integrator::kEuler, 8), 1},
-      {"Xpbd", settings_of(SolverKind::kXpbd, Integrator::kEuler, 8), 1},
-      {"Newton", settings_of(SolverKind::kNewton, Integrator::kEuler, 8), 1},
-      {"NewtonMean", settings_of(SolverKind::kNewton, Integrator::kLeapfrog, 8, Forces::kMean), 2},
-      {"NewtonNumerov",
-       settings_of(SolverKind::kNewton, Integrator::kLeapfrog, 8, Forces::kNumerov), 4}};
-}
-
-class Prismatic : public testing::TestWithParam<PrismaticMethod> {};
-
-double error_after(const Scene& scene, const Settings& settings, double seconds,
-                   const std::function<double(const State&, double)>& error) {
-  Simulator simulator = test::simulator_of(scene, settings);
-  double most = 0.0;
-  const auto frames = std::lround(seconds / scene.frame);
-  for (long i = 0; i < frames; ++i) {
-    const FrameReport report = simulator.step();
-    EXPECT_EQ(report.status, StepStatus::kOk);
-    keep_largest(most, error(simulator.state(), simulator.state().time));
-  }
-  return most;
-}
-
-/// The error after doubling the sub-steps: reduced at least by the method's order, or at the level
-/// of the iteration's or rounding's residual.
-void expect_order(const Scene& scene, const PrismaticMethod& method, double seconds, double floor,
-                  const std::function<double(const State&, double)>& error) {
-  Settings finer = method.settings;
-  finer.n *= 2;
-  const double coarse = error_after(scene, method.settings, seconds, error);
-  const double fine = error_after(scene, finer, seconds, error);
-  const double shrinks = std::pow(2.0, method.order);
-  EXPECT_LT(fine, std::max(floor, 1.15 * coarse / shrinks)) << coarse;
-}
+class Prismatic : public testing::TestWithParam<JointMethod> {};
 
 // s = g sin(theta) t^2/2 down a rail, for a body that hangs off it with an offset centre.
 TEST_P(Prismatic, SlidesDownAnInclinedRail) {
@@ -99,7 +47,7 @@ TEST_P(Prismatic, SlidesDownAnInclinedRail) {
     return (state.x[0] - exact).norm() + state.q[0].angularDistance(attitude);
   };
   // There is no curvature: methods that are not of first order are exact.
-  const PrismaticMethod& method = GetParam();
+  const JointMethod& method = GetParam();
   if (method.order > 1) {
     EXPECT_LT(error_after(scene, method.settings, 1.0, error), 1e-11);
   } else {
@@ -165,7 +113,7 @@ TEST_P(Prismatic, KeepsTheMomentaOfTwoFreeBodies) {
   EXPECT_LT(last_drift, std::max(1e-9, 1.3 * largest_drift / shrinks)) << largest_drift;
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryMethod, Prismatic, testing::ValuesIn(prismatic_methods()),
+INSTANTIATE_TEST_SUITE_P(EveryMethod, Prismatic, testing::ValuesIn(joint_methods()),
                          [](const auto& method) { return method.param.name; });
 
 // A slider-crank: x = r cos(a) + sqrt(l^2 - r^2 sin(a)^2), a loop of three hinges and a prismatic
@@ -194,7 +142,8 @@ TEST(PrismaticLoop, ASliderFollowsItsCrank) {
   builder.scene().frame = kFrame;
   const Scene scene = *builder.build();
   for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
-    Simulator simulator = test::simulator_of(scene, settings_of(SolverKind::kBpp, integrator, 16));
+    Simulator simulator =
+        test::simulator_of(scene, const_settings(SolverKind::kBpp, integrator, 16));
     const double energy = simulator.observe().energy;
     double off = 0.0;
     double drift = 0.0;
@@ -231,7 +180,7 @@ TEST(PrismaticCompliance, YieldsByItsCompliance) {
   joint.angular_compliance = 2e-3;
   scene.bodies[0].force = {0.0, 5.0, -3.0};
   scene.bodies[0].torque = {1.0, -2.0, 4.0};
-  Settings settings = settings_of(SolverKind::kBpp, Integrator::kEuler, 4);
+  Settings settings = const_settings(SolverKind::kBpp, Integrator::kEuler, 4);
   Simulator simulator = test::simulator_of(*builder.build(), settings);
   for (int i = 0; i < 600; ++i) ASSERT_EQ(simulator.step().status, StepStatus::kOk);
   const State& state = simulator.state();

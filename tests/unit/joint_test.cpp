@@ -1,3 +1,5 @@
+#include <Eigen/QR>
+
 #include "core/constraints/moved_rows.hpp"
 #include "core/math/across.hpp"
 #include "core/model/joint_fields.hpp"
@@ -30,11 +32,12 @@ Scene joined(Random& random, bool to_world) {
     joint.axis_a = random_vector(random).normalized();
     joint.axis_b = random_vector(random).normalized();
   }
-  if constexpr (std::is_same_v<JointType, PrismaticJoint>) {
+  if constexpr (requires { joint.across_a; }) {
     across(joint.axis_a = random_vector(random).normalized(), joint.across_a, joint.axis_b);
     Vec3 third;
     across(joint.axis_b = random_vector(random).normalized(), joint.across_b, third);
   }
+  if constexpr (requires { joint.length; }) joint.length = uniform(random, 0.5, 2.0);
   scene.joints.push_back(joint);
   return scene;
 }
@@ -64,6 +67,8 @@ TEST(JointTable, AnEntryWithoutAnOperationDoesNotCompile) {
   static_assert(JointRows<BallRows, BallJoint>);
   static_assert(JointRows<HingeRows, HingeJoint>);
   static_assert(JointRows<PrismaticRows, PrismaticJoint>);
+  static_assert(JointRows<WeldRows, WeldJoint>);
+  static_assert(JointRows<DistanceRows, DistanceJoint>);
   static_assert(!JointRows<WithoutCurvature, BallJoint>);
   static_assert(!JointRows<WithoutCouple, HingeJoint>);
   EXPECT_EQ(kind_of(BallJoint{}), BlockKind{0});
@@ -81,54 +86,85 @@ TEST(HingeJoint, GradientAndStiffnessMatchFiniteDifferences) {
 TEST(PrismaticJoint, GradientAndStiffnessMatchFiniteDifferences) {
   gradient_and_stiffness<PrismaticJoint>();
 }
+TEST(WeldJoint, GradientAndStiffnessMatchFiniteDifferences) { gradient_and_stiffness<WeldJoint>(); }
+TEST(DistanceJoint, GradientAndStiffnessMatchFiniteDifferences) {
+  gradient_and_stiffness<DistanceJoint>();
+}
 
-// Exchanged, the forces on both bodies are the same, and K that of the joint written the other way.
-TEST(PrismaticJoint, ExchangedExertsTheSameForces) {
+void close(HingeJoint& joint, const State& state) {
+  const Quat turn = state.q[0].conjugate() * state.q[1];
+  joint.axis_a = turn * joint.axis_b;
+  joint.anchor_a = state.q[0].conjugate() * (state.x[1] - state.x[0]) + turn * joint.anchor_b;
+}
+
+/// Closes a joint that fixes the orientation. @param travel of a slide [m]
+void close(auto& joint, const State& state, double travel) {
+  const Quat turn = state.q[0].conjugate() * state.q[1];
+  joint.axis_a = turn * joint.axis_b;
+  joint.across_a = turn * joint.across_b;
+  joint.anchor_a = state.q[0].conjugate() * (state.x[1] - state.x[0]) +
+                   turn * (joint.anchor_b + travel * joint.axis_b);
+}
+
+/// A force per row, with which a joint exerts given forces on two bodies.
+Eigen::VectorXd row_forces(const Block& block, const Eigen::Matrix<double, 12, 1>& on_bodies) {
+  Eigen::MatrixXd J(12, block.rows);
+  for (int row = 0; row < block.rows; ++row) {
+    J.col(row) << gradient(block, row, block.a == 0), gradient(block, row, block.a != 0);
+  }
+  return J.colPivHouseholderQr().solve(on_bodies);
+}
+
+// A closed joint with a and b exchanged, which exerts the same forces, has the same mean stiffness.
+template <class Rows, class JointType>
+void mean_stiffness_has_no_order() {
   Random random(8);
   for (int trial = 0; trial < 20; ++trial) {
-    Scene scene = joined<PrismaticJoint>(random, false);  // the first body of a joint moves
+    Scene scene = joined<JointType>(random, false);
     const State state = initial_state(scene);
-    const auto slide = [&]() -> PrismaticJoint& {
-      return std::get<PrismaticJoint>(scene.joints[0]);
-    };
-    {  // closed, but for the travel
-      PrismaticJoint& joint = slide();
-      const Quat q_a = state.q[0];
-      const Quat q_b = state.q[1];
-      joint.axis_a = q_a.conjugate() * (q_b * joint.axis_b);
-      joint.across_a = q_a.conjugate() * (q_b * joint.across_b);
-      const Vec3 at =
-          state.x[1] + q_b * (joint.anchor_b + uniform(random, -1.0, 1.0) * joint.axis_b);
-      joint.anchor_a = q_a.conjugate() * (at - state.x[0]);
+    auto& joint = std::get<JointType>(scene.joints[0]);
+    if constexpr (requires { joint.across_a; }) {
+      close(joint, state, JointType::kSlides ? uniform(random, -1.0, 1.0) : 0.0);
+    } else {
+      close(joint, state);
     }
     Blocks blocks;
     joint_rows(scene)(state, blocks);
     Block& block = blocks.all()[0];
     for (int row = 0; row < block.rows; ++row) block.lambda[row] = uniform(random, 0.5, 2.0);
-    Blocks exchanged;
-    PrismaticJoint& joint = slide();
     std::swap(joint.a, joint.b);
     std::swap(joint.anchor_a, joint.anchor_b);
     std::swap(joint.axis_a, joint.axis_b);
-    std::swap(joint.across_a, joint.across_b);
+    if constexpr (requires { joint.across_a; }) std::swap(joint.across_a, joint.across_b);
+    Blocks exchanged;
     joint_rows(scene)(state, exchanged);
-    const Block found = PrismaticRows::exchanged(block);
-    Block& expected = exchanged.all()[0];
-    std::copy_n(found.lambda, kMaxRows, expected.lambda);
-    for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body) {
-      EXPECT_LT((force_on(blocks, body) - force_on(exchanged, body)).norm(), 1e-13);
-    }
+    Block& other = exchanged.all()[0];
+    Eigen::Matrix<double, 12, 1> forces;
+    forces << force_on(blocks, 0), force_on(blocks, 1);
+    Eigen::Map<Eigen::VectorXd>(other.lambda, other.rows) = row_forces(other, forces);
     StiffnessMatrix K;
-    StiffnessMatrix K_expected;
-    for (StiffnessMatrix* of : {&K, &K_expected}) of->clear(scene.bodies.size());
-    PrismaticRows::stiffness(found, K);
-    PrismaticRows::stiffness(expected, K_expected);
-    for (int row = 0; row < static_cast<int>(scene.bodies.size()); ++row) {
-      for (int col = 0; col < static_cast<int>(scene.bodies.size()); ++col) {
-        EXPECT_LT((K.block(row, col) - K_expected.block(row, col)).norm(), 1e-13);
+    StiffnessMatrix K_other;
+    StiffnessMatrix K_one;
+    for (StiffnessMatrix* of : {&K, &K_other, &K_one}) of->clear(2);
+    Rows::mean_stiffness(block, K);
+    Rows::mean_stiffness(other, K_other);
+    Rows::stiffness(block, K_one);
+    double difference = 0.0;
+    for (int row = 0; row < 2; ++row) {
+      EXPECT_LT((force_on(blocks, row) - force_on(exchanged, row)).norm(), 1e-12);
+      for (int col = 0; col < 2; ++col) {
+        EXPECT_LT((K.block(row, col) - K_other.block(row, col)).norm(), 1e-12) << row << col;
+        difference += (K.block(row, col) - K_one.block(row, col)).norm();
       }
     }
+    EXPECT_GT(difference, 0.1) << "of one order";
   }
+}
+
+TEST(HingeJoint, MeanStiffnessHasNoOrder) { mean_stiffness_has_no_order<HingeRows, HingeJoint>(); }
+TEST(WeldJoint, MeanStiffnessHasNoOrder) { mean_stiffness_has_no_order<WeldRows, WeldJoint>(); }
+TEST(PrismaticJoint, MeanStiffnessHasNoOrder) {
+  mean_stiffness_has_no_order<PrismaticRows, PrismaticJoint>();
 }
 
 /// d2phi/dt2 of a joint against its errors a little earlier and later, at constant velocities.
@@ -168,6 +204,8 @@ void curvature() {
 TEST(BallJoint, CurvatureMatchesFiniteDifferences) { curvature<BallJoint>(); }
 TEST(HingeJoint, CurvatureMatchesFiniteDifferences) { curvature<HingeJoint>(); }
 TEST(PrismaticJoint, CurvatureMatchesFiniteDifferences) { curvature<PrismaticJoint>(); }
+TEST(WeldJoint, CurvatureMatchesFiniteDifferences) { curvature<WeldJoint>(); }
+TEST(DistanceJoint, CurvatureMatchesFiniteDifferences) { curvature<DistanceJoint>(); }
 
 /// The stated change of a joint type's row forces as bodies move, and their couple and force,
 /// against the gradients before and after.
@@ -215,6 +253,8 @@ void pushes() {
 TEST(BallJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<BallJoint>(); }
 TEST(HingeJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<HingeJoint>(); }
 TEST(PrismaticJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<PrismaticJoint>(); }
+TEST(WeldJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<WeldJoint>(); }
+TEST(DistanceJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<DistanceJoint>(); }
 
 TEST(HingeJoint, VectorsAcrossTheAxisAreOrthonormal) {
   Random random(2);

@@ -102,7 +102,15 @@ TEST(MovedRows, OfJointsMatchThoseOfTheEnd) {
     Vec3 third;
     across(slider.axis_a = hinge.axis_a, slider.across_a, third);
     across(slider.axis_b = hinge.axis_b, slider.across_b, third);
-    scene.joints = {hinge, ball, slider};
+    WeldJoint weld;
+    static_cast<JointBase&>(weld) = hinge;
+    weld.axis_a = slider.axis_a;
+    weld.axis_b = slider.axis_b;
+    weld.across_a = slider.across_a;
+    weld.across_b = slider.across_b;
+    DistanceJoint rod;
+    static_cast<JointBase&>(rod) = hinge;
+    scene.joints = {hinge, ball, slider, weld, rod};
     State state = initial_state(scene);
     move_at_random(random, scene, state);
     const RowDifference difference = after(scene, state, joint_rows(scene), 0.5);
@@ -113,13 +121,18 @@ TEST(MovedRows, OfJointsMatchThoseOfTheEnd) {
 
 TEST(MovedRows, ASubsetOfRowsMatchesAllRows) {
   Random random(36);
-  static_assert(kJointKinds == 3);
-  for (int trial = 0; trial < 40; ++trial) {
+  constexpr int kRows[] = {3, 5, 5, 6, 1, 3};
+  constexpr bool kPoints[] = {true, true, false, true, false, false};
+  const std::vector<RowRange> parts[] = {{{0, 3}},         {{0, 3}, {3, 2}},
+                                         {{0, 2}, {2, 3}}, {{0, 3}, {3, 3}},
+                                         {{0, 1}},         {{0, 1}, {1, 1}, {2, 1}}};
+  static_assert(std::size(kRows) == kJointKinds + 1);
+  for (int trial = 0; trial < 60; ++trial) {
     Block start{};
-    const int kind = trial % 4;
-    start.kind = kind == 3 ? BlockKind::kContact : static_cast<BlockKind>(kind);
-    start.has_point_rows = kind < 2;
-    start.rows = kind == 1 || kind == 2 ? 5 : 3;
+    const std::size_t kind = index(trial) % std::size(kRows);
+    start.kind = kind == kJointKinds ? BlockKind::kContact : static_cast<BlockKind>(kind);
+    start.has_point_rows = kPoints[kind];
+    start.rows = kRows[kind];
     for (Vec3* v : {&start.n, &start.t1, &start.t2, &start.rho, &start.r_a, &start.r_b,
                     &start.arm_a, &start.axis, &start.v1, &start.v2, &start.w}) {
       *v = random_vector(random).normalized();
@@ -132,13 +145,9 @@ TEST(MovedRows, ASubsetOfRowsMatchesAllRows) {
     if (start.is_contact()) {
       EXPECT_EQ(moved_gap(start, a, b), all.phi[0]) << trial;
     }
-    const std::vector<RowRange> parts = kind == 0   ? std::vector<RowRange>{{0, 3}}
-                                        : kind == 1 ? std::vector<RowRange>{{0, 3}, {3, 2}}
-                                        : kind == 2 ? std::vector<RowRange>{{0, 2}, {2, 3}}
-                                                    : std::vector<RowRange>{{0, 1}, {1, 1}, {2, 1}};
     Block some = start;
     move_rows(start, b, a, some);  // first move to another pose
-    for (const RowRange& rows : parts) {
+    for (const RowRange& rows : parts[kind]) {
       move_rows(start, a, b, some, rows);
       for (int row = rows.first; row < rows.first + rows.count; ++row) {
         EXPECT_EQ(some.phi[row], all.phi[row]) << trial << ", " << row;

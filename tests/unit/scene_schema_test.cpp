@@ -95,9 +95,12 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
   scene.carried.emplace().forces.emplace_back();
   scene.joints.emplace_back(std::get<HingeJoint>(scenes::pendulum().joints[0]));
   scene.joints.emplace_back(PrismaticJoint{});
+  scene.joints.emplace_back(WeldJoint{});
+  scene.joints.emplace_back(DistanceJoint{});
   const Json json = Json::parse(write_scene(scene), nullptr, false);
-  const std::string hinge = "/joints/" + std::to_string(scene.joints.size() - 2);
-  const std::string prismatic = "/joints/" + std::to_string(scene.joints.size() - 1);
+  const auto joint = [last = scene.joints.size() - 1](std::size_t before) {
+    return "/joints/" + std::to_string(last - before);
+  };
   // The place in the scene that the schema describes.
   const std::map<std::string, std::string> places{
       {"", ""},
@@ -115,8 +118,10 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
       {"/$defs/shape/oneOf/1", "/bodies/1/shape"},
       {"/$defs/shape/oneOf/2", "/bodies/0/shape"},
       {"/$defs/joint/oneOf/0", "/joints/0"},
-      {"/$defs/joint/oneOf/1", hinge},
-      {"/$defs/joint/oneOf/2", prismatic}};
+      {"/$defs/joint/oneOf/1", joint(3)},
+      {"/$defs/joint/oneOf/2", joint(2)},
+      {"/$defs/joint/oneOf/3", joint(1)},
+      {"/$defs/joint/oneOf/4", joint(0)}};
   std::size_t seen = 0;
   for_each_object(schema(), "", [&](const std::string& pointer, const Json& object) {
     ++seen;

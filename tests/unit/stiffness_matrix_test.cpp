@@ -1,6 +1,5 @@
 #include "core/constraints/contact.hpp"
-#include "core/constraints/hinge_joint.hpp"
-#include "core/constraints/prismatic_joint.hpp"
+#include "core/constraints/joint_rows.hpp"
 #include "core/constraints/turning_stiffness.hpp"
 #include "tests/unit/support.hpp"
 
@@ -96,13 +95,10 @@ TEST(StiffnessMatrix, NormsDoNotDependOnTheUnitOfLength) {
 // The part of K that Newton uses.
 TEST(TurningStiffness, IsTheDiagonalOfTheFullMatrix) {
   Random random(11);
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < 90; ++trial) {
     Block block;
-    const int kind = trial % 4;
-    block.kind = kind == 0   ? kind_of(BallJoint{})
-                 : kind == 1 ? kind_of(HingeJoint{})
-                 : kind == 2 ? kind_of(PrismaticJoint{})
-                             : BlockKind::kContact;
+    const std::size_t kind = index(trial) % (kJointKinds + 1);
+    block.kind = kind == kJointKinds ? BlockKind::kContact : static_cast<BlockKind>(kind);
     block.a = trial % 5 == 3 ? -1 : 0;
     block.b = trial % 5 == 4 ? -1 : 1;
     for (Vec3* v : {&block.n, &block.rho, &block.r_a, &block.r_b, &block.arm_a, &block.axis,
@@ -114,10 +110,11 @@ TEST(TurningStiffness, IsTheDiagonalOfTheFullMatrix) {
     for (double& force : block.lambda) force = random_vector(random).x();
     StiffnessMatrix whole;
     whole.clear(2);
-    if (kind == 0) BallRows::stiffness(block, whole);
-    if (kind == 1) HingeRows::stiffness(block, whole);
-    if (kind == 2) PrismaticRows::stiffness(block, whole);
-    if (kind == 3) contact_stiffness(block, ContactTerms::kNormal, whole);
+    if (block.is_contact()) {
+      contact_stiffness(block, ContactTerms::kNormal, whole);
+    } else {
+      with_joint_rows(block.kind, [&](auto joint) { joint.stiffness(block, whole); });
+    }
     std::vector<Mat3> turning(2, Mat3::Zero());
     add_turning_stiffness(block, turning);
     for (int body = 0; body < 2; ++body) {

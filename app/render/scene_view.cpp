@@ -224,7 +224,7 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
                            Picture& out) const {
   const Scene& scene = *seen.scene;
   const Poses& poses = *seen.poses;
-  const double bracket = std::clamp(0.018 * home_.radius, 0.04, 0.4);
+  const double bracket = std::clamp(0.018 * home_.radius, 0.04 * std::min(home_.radius, 1.0), 0.4);
   for (const Joint& joint : scene.joints) {
     const JointBase& j = base(joint);
     const auto a = static_cast<std::size_t>(j.a);

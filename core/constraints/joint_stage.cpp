@@ -73,9 +73,12 @@ JointErrors JointStage::errors(const State& state, std::span<const Mat3> R_WB) c
   Block block;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     fill(state, R_WB, i, block);
-    for (int row = 0; row < block.rows; ++row) errors.sum += std::abs(block.phi[row]);
+    for (int row = 0; row < block.rows; ++row) {
+      const double error = std::abs(block.phi[row]);
+      errors.sum += is_spring(i, row, block) ? 0.0 : error;
+    }
     const double gap = gap_of(block);
-    if (gap > errors.gap) {
+    if (!joints_[i].spring && gap > errors.gap) {
       errors.gap = gap;
       errors.joint = static_cast<int>(i);
     }

@@ -13,8 +13,8 @@ namespace substep {
 
 /// Errors of all joints at a state.
 struct JointErrors {
-  double sum = 0.0;      // 1-norms of phi over all joints [m, rad]
-  double gap = 0.0;      // largest distance between two anchors [m]
+  double sum = 0.0;      // 1-norm of phi over all rows that are no springs [m, rad]
+  double gap = 0.0;      // largest gap of a joint that is no spring [m]
   int joint = -1;        // the joint with that gap
   double torn = 0.0;     // largest gap of a joint that is no spring, of largest_gap() [-]
   int torn_joint = -1;   // that joint

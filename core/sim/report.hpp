@@ -141,8 +141,8 @@ struct FrameReport {
   double parting = 0.0;     // potential energy added in this frame by parting overlaps [J]
   int lowered = 0;          // impacts whose e was lowered, because Newton's law would add energy
   double lowered_to = 1.0;  // the smallest share of e that was left [-]
-  double constraint_error = 0.0;  // sum over joints of the 1-norm of phi [m, rad]
-  double joint_gap = 0.0;         // largest distance between the anchors of a joint [m]
+  double constraint_error = 0.0;  // sum of |phi| of joint rows, springs excepted [m, rad]
+  double joint_gap = 0.0;         // largest gap of a joint that is no spring [m]
   int joint_gap_joint = -1;       // index of that joint
   double torn = 0.0;              // largest gap of a joint, of the gap at which it is torn [-]
   int torn_joint = -1;            // index of that joint

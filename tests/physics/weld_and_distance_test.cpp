@@ -155,6 +155,26 @@ TEST_P(Distance, WithComplianceItIsASpring) {
   });
 }
 
+// The stretch is part of the motion; its energy belongs to the total.
+TEST(DistanceSpring, HasNoGap) {
+  SceneBuilder builder;
+  builder.add_body(Sphere{0.1}, 2.0, {0.0, -1.0, 0.0});
+  builder.add_distance(0, kWorld, {0.0, -1.0, 0.0}, Vec3::Zero());
+  base(builder.scene().joints[0]).compliance = 1e-2;
+  builder.scene().gravity = {0.0, -kGravity, 0.0};
+  Simulator simulator = test::simulator_of(*builder.build(), substep::Settings{});
+  const double energy = simulator.observe().energy;
+  double stretch = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const FrameReport report = simulator.step();
+    EXPECT_EQ(report.joint_gap, 0.0);
+    EXPECT_EQ(report.constraint_error, 0.0);
+    EXPECT_NEAR(report.energy, energy, 0.02 * 2.0 * kGravity * 0.4) << i;
+    keep_largest(stretch, -1.0 - simulator.state().x[0].y());
+  }
+  EXPECT_GT(stretch, 0.3);
+}
+
 /// Two free bodies of unequal inertia at the ends of a rod, off their centres.
 Scene dumbbell() {
   SceneBuilder builder;

@@ -56,10 +56,14 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
     const Pose b = pose(scene, j.b);
     const Vec3 apart = a.x + a.q * j.anchor_a - b.x - b.q * j.anchor_b;
     const double gap = gap_of(scene.joints[i], apart, b.q).norm();
-    if (gap > largest_gap_at_start(scene, j)) {
-      problems.push_back({pointer_to("/joints", i),
-                          "the anchors start " + number_text(gap) + " apart, which is more than " +
-                              number_text(largest_gap_at_start(scene, j)) + " (m)"});
+    const std::optional<double> length = length_of(scene.joints[i]);
+    const bool is_spring = length && j.compliance > 0.0;  // it may start stretched
+    if (!is_spring && gap > largest_gap_at_start(scene, j)) {
+      const std::string where = length ? "away from their distance" : "apart";
+      problems.push_back(
+          {pointer_to("/joints", i), "the anchors start " + number_text(gap) + " " + where +
+                                         ", which is more than " +
+                                         number_text(largest_gap_at_start(scene, j)) + " (m)"});
     }
     const auto check_parallel = [&](const std::optional<JointAxes>& pair, const char* what) {
       if (!pair) return;

@@ -284,6 +284,35 @@ TEST(DistanceStart, ARodMustReachItsBodies) {
       << to_string(problems[0]);
 }
 
+// Two balls on a stretched spring oscillate about its length; it may even start at zero.
+TEST(DistanceStart, ASpringMayStartStretched) {
+  for (const double start : {1.5, 0.0}) {
+    SceneBuilder builder;
+    builder.add_body(Sphere{0.05}, 1.0, {0.0, 0.0, 0.0});
+    builder.add_body(Sphere{0.05}, 2.0, {start, 0.0, 0.0});
+    for (int i = 0; i < 2; ++i) builder.body(i).collides = false;
+    builder.add_distance(1, 0, {start, 0.0, 0.0}, Vec3::Zero());
+    auto& spring = std::get<DistanceJoint>(builder.scene().joints[0]);
+    spring.length = 1.0;
+    spring.compliance = 0.05;
+    builder.scene().gravity.setZero();
+    const auto scene = builder.build();
+    ASSERT_TRUE(validate(*scene).empty()) << to_string(validate(*scene)[0]);
+    Settings settings;
+    settings.mode = Mode::kConst;
+    settings.n = 16;
+    settings.integrator = Integrator::kStormer;
+    Simulator simulator = test::simulator_of(scene, settings);
+    const double rate = std::sqrt(1.5 / 0.05);                        // of the reduced mass 2/3 kg
+    const double turn = start > 0.0 ? std::numbers::pi / rate : 0.1;  // before it passes zero
+    while (simulator.state().time < turn) {
+      ASSERT_EQ(simulator.step().status, StepStatus::kOk);
+      const double apart = 1.0 + (start - 1.0) * std::cos(rate * simulator.state().time);
+      EXPECT_NEAR(simulator.state().x[1].x() - simulator.state().x[0].x(), apart, 1e-6);
+    }
+  }
+}
+
 // N follows the tension of the rod: k/m = f/(L m), the square of the rate of small swings.
 TEST(DistanceStiffness, IsTheRateOfThePendulum) {
   SceneBuilder builder;

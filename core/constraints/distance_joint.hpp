@@ -57,12 +57,12 @@ struct DistanceRows {
     const Vec3 f = block.lambda[0] * block.n;
     const Mat3 lP =
         block.lambda[0] / length_of(block) * (Mat3::Identity() - block.n * block.n.transpose());
-    using Mat36 = Eigen::Matrix<double, 3, 6>;
-    Mat36 S_a = Mat36::Zero();
-    Mat36 S_b = Mat36::Zero();
+    using Derivative = Eigen::Matrix<double, 3, 6>;
+    Derivative S_a = Derivative::Zero();
+    Derivative S_b = Derivative::Zero();
     S_a << Mat3::Identity(), -skew(block.r_a);
     S_b << -Mat3::Identity(), skew(block.r_b);
-    const auto add = [&](int row, int col, const Mat36& S_row, const Mat36& S_col) {
+    const auto add = [&](int row, int col, const Derivative& S_row, const Derivative& S_col) {
       if (row >= 0 && col >= 0) K.add(row, col, S_row.transpose() * lP * S_col);
     };
     add(block.a, block.a, S_a, S_a);

@@ -10,6 +10,7 @@
 
 namespace substep::scenes {
 namespace {
+namespace andrews {
 
 constexpr double kRate = 4530.0;         // of the spring [N/m]
 constexpr double kFreeLength = 0.07785;  // [m]
@@ -113,9 +114,11 @@ ExamMeasure measure_squeezer() {
   };
 }
 
+}  // namespace andrews
 }  // namespace
 
 ExamCase exam_squeezer() {
+  using namespace andrews;
   ExamCase exam = exam_case("squeezer", "IFToMM A03, Andrews' squeezing mechanism",
                             "Seven bodies of a few grams on ten hinges, a spring, and a constant "
                             "torque on the crank.",

@@ -14,8 +14,11 @@ constexpr double kNearRounding = 1e-12;  // of gaps, relative to the size of a j
 constexpr double kOpen = 1e-10;          // gap of a joint that is open, likewise
 constexpr double kOpens = 10.0;          // growth of a gap in a sub-step that is too long
 
-/// The size of a joint, below whose rounding its gap cannot be told from zero [m].
-double size_of(const Block& block) { return block.r_a.norm() + block.r_b.norm(); }
+/// The size of a joint, below whose rounding its gap cannot be told from zero: its arms, and the
+/// length of a distance joint, whose ends may be centres of mass [m].
+double size_of(const Block& block) {
+  return block.r_a.norm() + block.r_b.norm() + block.rho.norm();
+}
 
 /// The largest gap of the rows that are not springs, relative to the joint's size, or angle.
 double largest_gap(const Block& block, const double* gaps) {

@@ -14,7 +14,7 @@ namespace substep::scenes {
 
 inline constexpr double kExamGravity = 9.81;  // [m/s^2]
 
-/// A case and its empty scene, with the same name and texts.
+/// A case and its empty scene with the paper's settings, with the same name and texts.
 /// @param duration, frame [s]
 inline ExamCase exam_case(const std::string& name, const std::string& title,
                           const std::string& definition, const std::string& source, double duration,
@@ -31,6 +31,7 @@ inline ExamCase exam_case(const std::string& name, const std::string& title,
   exam.scene.look_for = "Reference: " + source;
   exam.scene.frame = frame;
   exam.scene.criteria.duration = duration;
+  exam.scene.settings = PaperSettings{};
   return exam;
 }
 

@@ -39,6 +39,7 @@ void add_exam(Library& library) {
     scene.look_for += ".";
     // The exam's frames are as long as the row spacing of its tables, too long for display.
     scene.frame = std::min(scene.frame, 1.0 / 60.0);
+    scene.settings = Settings{};
     scene.settings.mode = Mode::kConst;
     scene.settings.integrator = Integrator::kLeapfrog;
     library.add_shipped(std::move(scene));

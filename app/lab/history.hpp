@@ -21,7 +21,7 @@ enum class Channel : std::uint8_t {
   kPotential,    // minus that at the start [J]
   kTotal,        // the sum of these two [J]
   kDrift,        // change of the total energy since the start: 0, ideally [J]
-  kJointError,   // sum over joints of the 1-norm of phi [m, rad]
+  kJointError,   // sum of |phi| of joint rows, springs excepted [m, rad]
   kJointGap,     // largest distance between the anchors of a joint [m]
   kPenetration,  // largest overlap of a contact [m]
   kTime,         // wall time of the frame [ms]

@@ -182,8 +182,10 @@ void draw_errors(const Sketch& in, const Desk& desk) {
   const double power = std::floor(std::log10(36.0 * px / report.joint_gap));
   const double factor = std::pow(10.0, std::clamp(power, 0.0, 12.0));
   for (const Joint& joint : scene.joints) {
+    const Vec3 error = error_of(in.session, joint);
+    if (error.norm() > 2.0 * report.joint_gap) continue;  // of a spring, which is not in the report
     const Vec3 a = anchor_of(in.session, base(joint));
-    const auto s = seen(in, a, a + factor * error_of(in.session, joint));
+    const auto s = seen(in, a, a + factor * error);
     if (!s) continue;
     draw_line(in, *s, in.look.theme->orange, 2.5F);
     in.draw.AddCircleFilled(s->to, 3.0F, in.look.theme->orange);

@@ -108,8 +108,9 @@ void error_plot(const PlotContext& in) {
   const Effects& effects = in.session.scene().effects;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   section(look, "Error, m");
-  tooltip(look, "Constraint error",
-          "Joints: the sum over all joints of the 1-norm of phi. Overlap: the deepest contact.");
+  tooltip(
+      look, "Constraint error",
+      "Joints: the sum of |phi| of joint rows, springs excepted. Overlap: the deepest contact.");
   PlotSpec spec{.id = "error", .least_span = 1e-9};
   if (in.compare.open()) {
     const Channel channel = effects.joints ? Channel::kJointError : Channel::kPenetration;

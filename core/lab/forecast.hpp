@@ -19,7 +19,8 @@ struct Forecast {
 ///
 /// The load of a joint is the weight of the part of the scene that it alone supports; in a loop,
 /// half the weight of all joined bodies. A load along its arm r adds the stiffness load |r x e| to
-/// rotation about e (Eq. 1), and r = k/I as in Eq. 9.
+/// rotation about e (Eq. 1), and r = k/I as in Eq. 9; one on a rod of length L the stiffness load/L
+/// across it, and r = k/m.
 Forecast forecast(const Scene& scene, const Settings& settings);
 
 }  // namespace substep

@@ -49,11 +49,9 @@ struct HingeJoint : JointBase {
   }
 };
 
-/// The anchor on a slides along the axis through the anchor on b, and the relative orientation is
-/// fixed: the axes and the directions perpendicular to them stay parallel. 5 rows.
-struct PrismaticJoint : JointBase {
-  static constexpr const char* kType = "prismatic";
-  static constexpr bool kSlides = true;
+/// A joint that fixes the relative orientation: its axes and the directions perpendicular to them
+/// stay parallel.
+struct OrientedJoint : JointBase {
   Vec3 axis_a = Vec3::UnitX();      // unit, in the frame of a [-]
   Vec3 axis_b = Vec3::UnitX();      // unit, in the frame of b, or in the world for kWorld [-]
   Vec3 across_a = Vec3::UnitY();    // unit, perpendicular to axis_a [-]
@@ -70,24 +68,15 @@ struct PrismaticJoint : JointBase {
   }
 };
 
-/// The two anchors coincide and the relative orientation is fixed, as for a prismatic joint: 6
-/// rows.
-struct WeldJoint : JointBase {
-  static constexpr const char* kType = "weld";
-  Vec3 axis_a = Vec3::UnitX();      // unit, in the frame of a [-]
-  Vec3 axis_b = Vec3::UnitX();      // unit, in the frame of b, or in the world for kWorld [-]
-  Vec3 across_a = Vec3::UnitY();    // unit, perpendicular to axis_a [-]
-  Vec3 across_b = Vec3::UnitY();    // unit, perpendicular to axis_b [-]
-  double angular_compliance = 0.0;  // C of the three angular rows [rad/(N m)], >= 0
+/// The anchor on a slides along the axis through the anchor on b: 5 rows.
+struct PrismaticJoint : OrientedJoint {
+  static constexpr const char* kType = "prismatic";
+  static constexpr bool kSlides = true;
+};
 
-  template <class J, class Field>
-  static void own_fields(J& joint, Field&& field) {
-    field("axis_a", joint.axis_a);
-    field("axis_b", joint.axis_b);
-    field("across_a", joint.across_a);
-    field("across_b", joint.across_b);
-    field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
-  }
+/// The two anchors coincide: 6 rows.
+struct WeldJoint : OrientedJoint {
+  static constexpr const char* kType = "weld";
 };
 
 /// The two anchors keep their distance, like a rod without mass; with compliance a spring of that

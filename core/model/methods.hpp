@@ -129,7 +129,8 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
      .title = "PGS",
      .full_name = "Projected Gauss-Seidel",
      .reference = "Erleben 2013",
-     .about = "a fixed number of sweeps over the rows of Eq. 3; sliding friction is of first order.",
+     .about =
+         "a fixed number of sweeps over the rows of Eq. 3; sliding friction is of first order.",
      .sweeps = true,
      .soft_drift = true,
      .work = 0.15,

@@ -46,6 +46,11 @@ std::optional<std::string> parallel_fault(const Vec3& u, const Vec3& v) {
          number_text(kMaxAxisAngleSine);
 }
 
+/// 0 for a body that does not move [1/kg].
+double inverse_mass(const Scene& scene, int body) {
+  return is_fixed(scene, body) ? 0.0 : 1.0 / scene.bodies[index(body)].mass;
+}
+
 }  // namespace
 
 void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& problems) {
@@ -57,7 +62,11 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
     const Vec3 apart = a.x + a.q * j.anchor_a - b.x - b.q * j.anchor_b;
     const double gap = gap_of(scene.joints[i], apart, b.q).norm();
     const std::optional<double> length = length_of(scene.joints[i]);
-    const bool is_spring = length && j.compliance > 0.0;  // it may start stretched
+    // Slower than a frame: it may start stretched. A stiffer one is a rod.
+    const bool is_spring =
+        length && j.compliance > 0.0 &&
+        j.compliance >=
+            scene.frame * scene.frame * (inverse_mass(scene, j.a) + inverse_mass(scene, j.b));
     if (!is_spring && gap > largest_gap_at_start(scene, j)) {
       const std::string where = length ? "away from their distance" : "apart";
       problems.push_back(

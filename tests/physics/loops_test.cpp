@@ -102,6 +102,7 @@ Settings stormer(const Scene& scene, int n) {
 
 /// A case of the exam with exact hinges.
 ExamCase exact(ExamCase exam) {
+  exam.scene.settings = substep::Settings{};
   for (Joint& joint : exam.scene.joints) {
     base(joint).compliance = 0.0;
     std::get<HingeJoint>(joint).angular_compliance = 0.0;

@@ -9,9 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/io/saved_scene.hpp"
-#include "core/io/scene_reader.hpp"
-#include "core/io/scene_writer.hpp"
 #include "core/model/scene_builder.hpp"
 #include "core/sim/conserved.hpp"
 #include "core/sim/start.hpp"
@@ -225,22 +222,7 @@ TEST(PrismaticStart, OffItsRailIsProjectedOntoIt) {
 }
 
 TEST_P(Prismatic, ContinuesFromASceneFileBitForBit) {
-  const Scene scene = sliders_on_a_swing();
-  Simulator whole = test::simulator_of(scene, GetParam().settings);
-  for (int i = 0; i < 20; ++i) ASSERT_EQ(whole.step().status, StepStatus::kOk);
-  const SceneResult saved =
-      read_scene(write_scene(saved_scene(scene, whole.state(), whole.settings())));
-  ASSERT_TRUE(saved.scene) << to_string(saved.problems.front());
-  Simulator rest(saved.scene);
-  for (int i = 0; i < 20; ++i) {
-    whole.step();
-    rest.step();
-  }
-  for (std::size_t body = 0; body < 3; ++body) {
-    EXPECT_EQ(whole.state().x[body], rest.state().x[body]);
-    EXPECT_EQ(whole.state().q[body].coeffs(), rest.state().q[body].coeffs());
-    EXPECT_EQ(whole.state().u[body], rest.state().u[body]);
-  }
+  test::expect_continues(sliders_on_a_swing(), GetParam().settings);
 }
 
 // The order in which bodies and joints are listed changes only rounding.

@@ -8,6 +8,9 @@
 #include <ostream>
 #include <vector>
 
+#include "core/io/saved_scene.hpp"
+#include "core/io/scene_reader.hpp"
+#include "core/io/scene_writer.hpp"
 #include "tests/support/keep_largest.hpp"
 #include "tests/support/run.hpp"
 
@@ -71,6 +74,25 @@ inline void expect_order(const Scene& scene, const JointMethod& method, double s
   const double fine = error_after(scene, finer, seconds, error);
   const double shrinks = std::pow(2.0, method.order);
   EXPECT_LT(fine, std::max(floor, 1.15 * coarse / shrinks)) << coarse;
+}
+
+/// Saved after 20 frames and read again, a run goes on with the same bits.
+inline void expect_continues(const Scene& scene, const Settings& settings) {
+  Simulator whole = simulator_of(scene, settings);
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(whole.step().status, StepStatus::kOk);
+  const SceneResult saved =
+      read_scene(write_scene(saved_scene(scene, whole.state(), whole.settings())));
+  ASSERT_TRUE(saved.scene) << to_string(saved.problems.front());
+  Simulator rest(saved.scene);
+  for (int i = 0; i < 20; ++i) {
+    whole.step();
+    rest.step();
+  }
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    EXPECT_EQ(whole.state().x[body], rest.state().x[body]);
+    EXPECT_EQ(whole.state().q[body].coeffs(), rest.state().q[body].coeffs());
+    EXPECT_EQ(whole.state().u[body], rest.state().u[body]);
+  }
 }
 
 }  // namespace substep::test

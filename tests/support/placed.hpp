@@ -20,11 +20,12 @@ inline Scene transformed(Scene scene, const Quat& R, const Vec3& by) {
   for (Joint& joint : scene.joints) {
     if (base(joint).b != kWorld) continue;
     base(joint).anchor_b = R * base(joint).anchor_b + by;
-    if (auto* hinge = std::get_if<HingeJoint>(&joint)) hinge->axis_b = R * hinge->axis_b;
-    if (auto* slide = std::get_if<PrismaticJoint>(&joint)) {
-      slide->axis_b = R * slide->axis_b;
-      slide->across_b = R * slide->across_b;
-    }
+    std::visit(
+        [&](auto& of) {
+          if constexpr (requires { of.axis_b; }) of.axis_b = R * of.axis_b;
+          if constexpr (requires { of.across_b; }) of.across_b = R * of.across_b;
+        },
+        joint);
   }
   return scene;
 }
@@ -63,6 +64,7 @@ inline Scene in_units(Scene scene, double mass, double length, double time = 1.0
     base(joint).compliance *= compliance;
     std::visit(
         [&](auto& of) {
+          if constexpr (requires { of.length; }) of.length *= length;
           if constexpr (requires { of.angular_compliance; }) {
             of.angular_compliance *= compliance / (length * length);
           }

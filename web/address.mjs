@@ -59,7 +59,9 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
   }
 
   async function write() {
+    const here = location.hash;
     const fragment = `#${await link()}`;
+    if (location.hash !== here) return; // the user went elsewhere while a scene was packed
     document.title = `${JSON.parse(wasm.report()).title} · substep`;
     if (fragment === written) return;
     // Going back returns to the previous scene, without the settings in between.

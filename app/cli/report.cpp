@@ -1,7 +1,9 @@
 #include "app/cli/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 #include "app/cli/message.hpp"
@@ -179,11 +181,15 @@ bool write_sweep_report(const fs::path& folder, const std::shared_ptr<const Scen
                   " of them failed; they are included.");
   if (data.contains("reference")) {
     const Json& reference = data["reference"];
+    const auto number = [&](const char* field) {  // null: it is not finite
+      const Json& value = reference[field];
+      return value.is_number() ? value.get<double>() : std::numeric_limits<double>::infinity();
+    };
     std::string line =
         format_text("Errors are measured from: %s, uncertain by %.2g m, over %g s.",
-                    reference.value("source", "").c_str(), reference.value("uncertainty", 0.0),
-                    reference.value("window", 0.0));
-    if (const double scale = reference.value("energy_scale", 0.0); scale >= kLeastEnergyScale) {
+                    reference.value("source", "").c_str(), number("uncertainty"), number("window"));
+    const double scale = number("energy_scale");
+    if (std::isfinite(scale) && scale >= kLeastEnergyScale) {
       line += format_text(" 100 %% energy drift is %g J, %s.", scale,
                           reference.value("energy_scale_source", "").c_str());
     }

@@ -20,8 +20,9 @@ enum class Type {
   kHash,  // 16 hexadecimal digits
   kFlag,  // true or false
   kNumber,
-  kError,  // a number; null if the run failed and it is not finite
-  kCount,  // a whole number
+  kError,        // a number; null if the run failed and it is not finite
+  kOfReference,  // a number; null if the reference failed and it is not finite
+  kCount,        // a whole number
 };
 
 /// A field of a result.
@@ -78,9 +79,9 @@ constexpr Field kResultFields[] = {
     {"errors/penetration", "peak", Type::kError, kNotNegative},
     {"errors/penetration", "median", Type::kError, kNotNegative},
     {"reference", "source", Type::kText},
-    {"reference", "uncertainty", Type::kNumber, kNotNegative},
+    {"reference", "uncertainty", Type::kOfReference, kNotNegative},
     {"reference", "window", Type::kNumber, kNotNegative},
-    {"reference", "energy_scale", Type::kNumber, kNotNegative},
+    {"reference", "energy_scale", Type::kOfReference, kNotNegative},
     {"reference", "energy_scale_source", Type::kText},
     {"work", "frames", Type::kCount, kAnyCount},
     {"work", "substeps", Type::kCount, kAnyCount},
@@ -127,7 +128,10 @@ bool is_hash(const std::string& text) {
 /// Checks one field of an object. @param failed whether the run of this result failed
 void check(const Field& field, bool failed, ObjectReader& in) {
   const Json* value = in.member(field.name, field.presence);
-  if (!value || (field.type == Type::kError && failed && value->is_null())) return;
+  if (!value) return;
+  const bool may_be_null =
+      field.type == Type::kOfReference || (field.type == Type::kError && failed);
+  if (may_be_null && value->is_null()) return;
   double number = 0.0;
   std::string text;
   bool flag = false;
@@ -148,6 +152,7 @@ void check(const Field& field, bool failed, ObjectReader& in) {
       break;
     case Type::kNumber:
     case Type::kError:
+    case Type::kOfReference:
       in.number(field.name, field.range, number, kOptional);
       break;
     case Type::kCount:

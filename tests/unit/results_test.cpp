@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -130,6 +131,24 @@ TEST(Results, AnErrorThatIsNotFiniteIsNullInAFailedRunOnly) {
   Json held = line_of(scenes::swinging_box(), Settings{});
   held["errors"]["energy_drift_peak"] = nullptr;
   EXPECT_EQ(problems_of(held), 1U);
+}
+
+TEST(Results, WhatIsNotFiniteOfAReferenceIsReadAgain) {
+  const Scene scene = scenes::swinging_box();
+  Experiment experiment = experiment_of(scene, Settings{});
+  experiment.duration = 0.1;
+  Reference reference = find_reference(std::make_shared<const Scene>(scene), 0.1);
+  reference.uncertainty = std::numeric_limits<double>::infinity();
+  reference.energy_scale = std::numeric_limits<double>::infinity();
+  ExperimentRun run(scene, experiment, reference);
+  while (run.advance()) {
+  }
+  const Json line = Json::parse(result_json(run.result()).dump());
+  EXPECT_TRUE(line["reference"]["uncertainty"].is_null());
+  EXPECT_TRUE(line["reference"]["energy_scale"].is_null());
+  EXPECT_EQ(problems_of(line), 0U);
+  const Json schema = result_schema();
+  EXPECT_EQ(schema_errors(schema, schema, line), std::vector<std::string>{});
 }
 
 // The command line refuses them.

@@ -42,6 +42,7 @@ struct Block {
   bool seeded = false;            // the block existed in the last sub-step: impulse is its seed
   bool was_closed = false;        // contact: carried a force in the last sub-step
   bool awaits = false;            // contact: open, it closes at the end of the sub-step or later
+  bool soft = false;              // contact: a spring
   std::int8_t active_set[kMaxRows];  // BPP: -1 at lo, 0 free (always for joints), +1 at hi
 
   // Point rows in a direct solve read only the members up to here, to save memory bandwidth.

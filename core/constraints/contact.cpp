@@ -28,6 +28,7 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
   block.mu = 0.0;
   block.phi[0] = point.gap;
   block.C[0] = model.compliance;
+  block.soft = is_soft(model);
   block.spring_ahead[0] = block.curved = 0.0;
   set_row(block, 0, point.n);
 }

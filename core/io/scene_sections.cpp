@@ -55,6 +55,7 @@ void read_contact(ObjectReader& parent, Scene& scene, Problems& problems) {
   in.number("margin", kMarginRange, scene.contact.margin, kOptional);
   in.number("restitution_speed", kRestitutionSpeedRange, scene.contact.restitution_speed,
             kOptional);
+  in.number("soft_compliance", kComplianceRange, scene.contact.soft_compliance, kOptional);
   in.finish();
 }
 

@@ -160,6 +160,9 @@ Json scene_json(const Scene& scene) {
     if (scene.effects.friction) contact["friction_compliance"] = scene.contact.friction_compliance;
     contact["margin"] = scene.contact.margin;
     if (scene.effects.restitution) contact["restitution_speed"] = scene.contact.restitution_speed;
+    if (scene.contact.soft_compliance != ContactModel{}.soft_compliance) {
+      contact["soft_compliance"] = scene.contact.soft_compliance;
+    }
   }
   if (scene.regularisation != 0.0) json["regularisation"] = scene.regularisation;
   if (scene.start != StartPolicy::kProject) json["start"] = name_of(scene.start);

@@ -77,7 +77,7 @@ std::string start_text(const Scene& scene, const StartReport& report) {
 
 std::string overlap_text(const Scene& scene, const Settings& settings, const FrameReport& start) {
   constexpr double kLeast = 1e-3;  // of the width
-  if (start.inside_a < 0 || !(start.inside > kLeast) || is_soft_contact(scene.contact)) return "";
+  if (start.inside_a < 0 || !(start.inside > kLeast) || is_soft(scene.contact)) return "";
   const auto name = [&](int body) { return "'" + scene.bodies[index(body)].name + "'"; };
   return name(start.inside_a) + " and " + name(start.inside_b) + " overlap by " +
          length_text(start.inside * smaller_width(scene, start.inside_a, start.inside_b)) +

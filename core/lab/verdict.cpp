@@ -102,7 +102,7 @@ Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& star
       energy_at_start_(start.energy),
       inside_at_start_(start.inside) {
   if (refused_ || start.status == StepStatus::kInvalid) return;
-  judges_overlaps_ = !scene.criteria.energy_gain && !is_soft_contact(scene.contact);
+  judges_overlaps_ = !scene.criteria.energy_gain && !is_soft(scene.contact);
   if (!scene.criteria.energy_gain && !has_torque(scene)) energy_.emplace(scene, start);
   if (scene.effects.contact) passages_.emplace(scene, state);
   if (!scene.criteria.displacement) return;

@@ -24,7 +24,14 @@ struct ContactModel {
   double friction_compliance = 1e-10;  // C of the friction rows [m/N]
   double margin = 0.02;                // rows are created for gaps up to this [m]
   double restitution_speed = 0.1;      // slower approaches do not bounce [m/s]
+  double soft_compliance = 1e-6;       // from here on contacts are springs [m/N]
 };
+
+/// True if contacts are springs; stiffer ones model rigid bodies, which land without rebound or
+/// with that of their coefficient of restitution.
+inline bool is_soft(const ContactModel& contact) {
+  return contact.compliance >= contact.soft_compliance;
+}
 
 /// An energy gain that is not judged [J].
 inline constexpr double kAnyEnergy = std::numeric_limits<double>::infinity();
@@ -90,19 +97,13 @@ inline double size_of_joint(const Scene& scene, const JointBase& joint) {
 }
 
 /// The gap at which a joint counts as torn, unless it is a spring, whose stretch is part of the
-/// motion [m].
+/// motion. At the start it is an error of the scene [m].
 inline double largest_gap(const Scene& scene, const JointBase& joint) {
   constexpr double kTorn = 0.1;  // of its size
   // A joint at the centre of b has no arms, and a may be a plane.
   const double b =
       is_fixed(scene, joint.b) ? 0.0 : radius_around(scene.bodies[index(joint.b)].shape);
   return scene.criteria.joint_gap.value_or(kTorn * std::max(size_of_joint(scene, joint), b));
-}
-
-/// A larger gap at the start is an error of the scene [m].
-inline double largest_gap_at_start(const Scene& scene, const JointBase& joint) {
-  constexpr double kLeast = 0.1;  // [m]
-  return scene.criteria.joint_gap.value_or(std::max(kLeast, largest_gap(scene, joint)));
 }
 
 /// The scene's own settings: the paper's if it starts with its recommendation. Sweeps start from

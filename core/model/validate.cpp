@@ -54,6 +54,7 @@ void check_contact(const ContactModel& contact, Problems& problems) {
   check_number(contact.compliance, kComplianceRange, "/contact/compliance", problems);
   check_number(contact.friction_compliance, kComplianceRange, "/contact/friction_compliance",
                problems);
+  check_number(contact.soft_compliance, kComplianceRange, "/contact/soft_compliance", problems);
   check_number(contact.margin, kMarginRange, "/contact/margin", problems);
   check_number(contact.restitution_speed, kRestitutionSpeedRange, "/contact/restitution_speed",
                problems);

@@ -297,7 +297,7 @@ void Simulator::Impl::observe(const Measures& asked, std::span<const Mat3> axes,
   report.kinetic = energies.kinetic;
   report.potential = energies.potential;
   report.springs = asked.energies ? 0.0 : kNotMeasured;
-  const bool soft = is_soft_contact(scene->contact);
+  const bool soft = is_soft(scene->contact);
   if (joints && (asked.errors || (asked.energies && joints->has_springs()))) {
     const JointErrors errors = joints->errors(state, axes);
     report.constraint_error = errors.sum;

@@ -102,7 +102,7 @@ bool Simulator::Impl::is_fast(const Substep& sub, const Block& block, double app
 
 // What rests has no approach before the forces.
 bool Simulator::Impl::arrives(const Substep& sub, const Block& block) const {
-  return !is_soft_contact(block) && is_fast(sub, block, -normal_speed(block, sub.u_before));
+  return !block.soft && is_fast(sub, block, -normal_speed(block, sub.u_before));
 }
 
 /// The gap below which bodies touch [m].
@@ -182,8 +182,7 @@ void Simulator::Impl::set_reactions(const Substep& sub, std::span<const Vec6> u,
       set_joint(sub.inverse_mass, u, block);
       continue;
     }
-    if (is_soft_contact(block) || block.phi[0] > kResting * touching(block) ||
-        arrives(sub, block)) {
+    if (block.soft || block.phi[0] > kResting * touching(block) || arrives(sub, block)) {
       block.bias[0] = kStaysOpen;
     }
   }
@@ -203,7 +202,7 @@ bool Simulator::Impl::set_hits(const Substep& sub, std::span<const Vec6> u, doub
     const double approach = -normal_speed(block, u);
     const bool fast = is_fast(sub, block, approach);
     const double e = restitution ? restitution->restitution_of(block) : 0.0;
-    if (is_soft_contact(block) || block.phi[0] > (fast ? 1.0 : kResting) * touching(block)) {
+    if (block.soft || block.phi[0] > (fast ? 1.0 : kResting) * touching(block)) {
       block.bias[0] = kStaysOpen;
     } else if (fast) {
       any = true;
@@ -269,7 +268,7 @@ bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
 void Simulator::Impl::start_from(Substep& sub, std::span<const Vec6> u_minus,
                                  std::span<const Vec6> u_plus) {
   const bool springs = std::any_of(sub.rows.begin(), sub.rows.end(), [](const Block& block) {
-    if (block.is_contact()) return is_soft_contact(block);
+    if (block.is_contact()) return block.soft;
     return is_spring(block, 0) || is_spring(block, block.rows - 1);
   });
   const bool starts = !springs && sub.integrator->starts_at_poses();
@@ -297,7 +296,7 @@ void Simulator::Impl::start_from(Substep& sub, std::span<const Vec6> u_minus,
 // Contacts that touch after a strike rest, or separate: their forces contain no impact.
 void Simulator::Impl::close_struck(const Substep& sub) const {
   for (Block& block : sub.rows) {
-    if (!block.is_contact() || is_soft_contact(block)) continue;
+    if (!block.is_contact() || block.soft) continue;
     if (block.phi[0] <= kResting * touching(block)) block.was_closed = true;
   }
 }

@@ -182,7 +182,7 @@ bool Simulator::Impl::too_many_swept() const {
 
 bool Simulator::Impl::parts(const Block& block) const {
   const auto width = [&] { return contact->detector().half_width(block.body_a, block.body_b); };
-  return block.is_contact() && !is_soft_contact(block) &&
+  return block.is_contact() && !block.soft &&
          block.phi[0] < -SweptContacts::kAllowedOverlap * width();
 }
 

@@ -70,18 +70,11 @@ void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row
   joint.softness[row] = kGivenForce * mobility_of(joint, row, inverse_mass);
 }
 
-// Smallest compliance of a contact treated as a spring [m/N]. Stiffer ones model rigid bodies,
-// which land without rebound: implicit Euler dissipates the energy of the impact.
-constexpr double kSoftContact = 1e-6;
-
-bool is_soft_contact(const ContactModel& model) { return model.compliance >= kSoftContact; }
-bool is_soft_contact(const Block& contact) { return contact.C[0] >= kSoftContact; }
-
 void stiffen_contacts(const Substep& sub, double share, std::span<Block> rows) {
   for (Block& block : rows) {
     if (!block.is_contact()) continue;
     for (int row = 0; row < block.rows; ++row) {
-      if (block.C[row] >= kSoftContact) continue;
+      if (block.C[row] >= sub.scene->contact.soft_compliance) continue;
       block.softness[row] =
           share * mobility_of(block, row, sub.inverse_mass) + sub.scene->regularisation;
     }
@@ -192,8 +185,8 @@ void set_contact_spring(const Substep& sub, const State& state, Block& contact) 
 void set_springs(const Substep& sub, const State& state) {
   const bool averages = averages_springs(sub.settings);  // else plain Eq. 3
   const bool of_joints = sub.has_springs && (averages || springs_are_stored(sub));
-  const bool of_contacts = averages && sub.scene->contact.compliance >= kSoftContact &&
-                           drift_law(sub.settings) != Drift::kSoft;
+  const bool of_contacts =
+      averages && is_soft(sub.scene->contact) && drift_law(sub.settings) != Drift::kSoft;
   if (!of_joints && !of_contacts) return;
   for (Block& block : sub.rows) {
     if (block.is_contact()) {

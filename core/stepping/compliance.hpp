@@ -38,10 +38,6 @@ double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, cons
                     int first, int end);
 inline constexpr double kResolved = 0.25;  ///< Störmer prescribes spring forces up to this kappa
 
-/// True if a contact is a spring: a stiffer one models rigid bodies.
-bool is_soft_contact(const Block& contact);
-bool is_soft_contact(const ContactModel& model);
-
 /// Makes contacts that are not springs rigid, but for a softness that is small beside the mobility
 /// of each row: C/dt^2 would let bodies sink and rebound, the more the shorter the sub-step.
 /// @param share of the mobility [-]

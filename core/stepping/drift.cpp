@@ -88,7 +88,7 @@ void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
   constexpr double kRigid = 1e-4;  // but the softness not below this part of what it was
   constexpr double kKept = 0.5;  // of the force: less than all, so that forces in a jam are bounded
   for (Block& block : blocks) {
-    if (!block.is_contact() || is_soft_contact(block)) continue;
+    if (!block.is_contact() || block.soft) continue;
     if (block.awaits) {
       block.bias[0] = kStaysOpen;
       continue;

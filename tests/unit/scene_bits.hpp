@@ -103,6 +103,7 @@ inline SceneBits bits_of(const Scene& s) {
   out.add(s.contact.friction_compliance);
   out.add(s.contact.margin);
   out.add(s.contact.restitution_speed);
+  out.add(s.contact.soft_compliance);
   out.add(s.regularisation);
   out.add(static_cast<int>(s.start));
   out.add(s.criteria.duration);

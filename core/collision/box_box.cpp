@@ -28,9 +28,9 @@ struct Polygon {
 
 /// Clips to sign * p[axis] <= limit (Sutherland and Hodgman). Points on the limit, within rounding,
 /// are kept and are not crossings: flush faces have four corners regardless of rounding.
-Polygon clip(const Polygon& in, int axis, double sign, double limit, unsigned side) {
+/// @param on rounding [m]
+Polygon clip(const Polygon& in, int axis, double sign, double limit, unsigned side, double on) {
   Polygon out;
-  const double on = 1e-9 * (1.0 + limit);  // [m]
   for (std::size_t i = 0; i < in.size; ++i) {
     const Corner& from = in.corners[i];
     const Corner& to = in.corners[(i + 1) % in.size];
@@ -91,10 +91,11 @@ void face_points(const Placed& i, const Vec3& half_i, const Placed& r, const Vec
   }
   const int s = (face.axis + 1) % 3;
   const int t = (face.axis + 2) % 3;
-  polygon = clip(polygon, s, 1.0, half_r[s], 4);
-  polygon = clip(polygon, s, -1.0, half_r[s], 5);
-  polygon = clip(polygon, t, 1.0, half_r[t], 6);
-  polygon = clip(polygon, t, -1.0, half_r[t], 7);
+  const double on = 1e-9 * (half_r.maxCoeff() + half_i.maxCoeff());
+  polygon = clip(polygon, s, 1.0, half_r[s], 4, on);
+  polygon = clip(polygon, s, -1.0, half_r[s], 5, on);
+  polygon = clip(polygon, t, 1.0, half_r[t], 6, on);
+  polygon = clip(polygon, t, -1.0, half_r[t], 7, on);
 
   const Vec3 n = face.sign * r.R.col(face.axis);
   const unsigned faces = static_cast<unsigned>(face.axis) * 24U + static_cast<unsigned>(axis) * 4U +
@@ -112,9 +113,9 @@ void face_points(const Placed& i, const Vec3& half_i, const Placed& r, const Vec
 
 // Edge against edge: the nine separating axes that are not face normals.
 
-// Edges closer to parallel than this have no well-defined common perpendicular; the adjacent faces
-// are used instead. Sine squared of 0.6 degrees.
-constexpr double kParallel = 1e-4;
+// Sine of the tilt, 0.6 degrees, below which edges have no well-defined common perpendicular and
+// faces are flush.
+constexpr double kTilt = 1e-2;
 
 double reach(const Mat3& R, const Vec3& half, const Vec3& n) {
   return std::abs(R.col(0).dot(n)) * half[0] + std::abs(R.col(1).dot(n)) * half[1] +
@@ -148,6 +149,9 @@ struct EdgePair {
                                                           // all edges are parallel
 };
 
+/// Geometric mean of the largest and the smallest half extent [m].
+double mean_extent(const Vec3& half) { return std::sqrt(half.maxCoeff() * half.minCoeff()); }
+
 EdgePair best_edges(const Placed& a, const Vec3& half_a, const Placed& b, const Vec3& half_b) {
   EdgePair best;
   const Vec3 d = a.x - b.x;
@@ -155,7 +159,7 @@ EdgePair best_edges(const Placed& a, const Vec3& half_a, const Placed& b, const 
     for (int j = 0; j < 3; ++j) {
       const Vec3 across = a.R.col(i).cross(b.R.col(j));
       const double sine_squared = across.squaredNorm();
-      if (sine_squared < kParallel) continue;
+      if (sine_squared < kTilt * kTilt) continue;
       const double side = across.dot(d) < 0.0 ? -1.0 : 1.0;
       const Vec3 n = side / std::sqrt(sine_squared) * across;
       const double gap = n.dot(d) - reach(a.R, half_a, n) - reach(b.R, half_b, n);
@@ -219,19 +223,23 @@ void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b,
   const EdgePair edges = best_edges(a, box_a.half_extents, b, box_b.half_extents);
   if (edges.gap > margin) return;
   // Prefer faces unless two edges are clearly better: alternating between one contact and four
-  // shakes a stack, and faces in contact have crossing edges at nearly the same gap.
-  constexpr double kFaces = 1e-3;  // [m]
-  if (edges.gap > std::max(on_a.gap, on_b.gap) + kFaces &&
-      edge_point(edges, a, box_a.half_extents, b, box_b.half_extents, out)) {
-    return;
-  }
+  // shakes a stack, and faces in contact have crossing edges at nearly the same gap, apart by the
+  // tilt times a length. For that of the box a plate would be found too late.
+  const double length = std::min(mean_extent(box_a.half_extents), mean_extent(box_b.half_extents));
+  const auto touch_edges = [&] {
+    return edge_point(edges, a, box_a.half_extents, b, box_b.half_extents, out);
+  };
+  if (edges.gap > std::max(on_a.gap, on_b.gap) + kTilt * length && touch_edges()) return;
   // Prefer b's face unless a's is clearly better, so that faces in contact do not alternate.
-  constexpr double kPreference = 1e-4;  // [m]
-  if (on_a.gap > on_b.gap + kPreference) {
+  constexpr double kPreference = 1e-3;
+  const std::size_t known = out.size();
+  if (on_a.gap > on_b.gap + kPreference * length) {
     face_points(b, box_b.half_extents, a, box_a.half_extents, on_a, margin, out);
   } else {
     face_points(a, box_a.half_extents, b, box_b.half_extents, on_b, margin, out);
   }
+  const bool overlaps = edges.gap < 0.0 && edges.gap > std::max(on_a.gap, on_b.gap);
+  if (overlaps && out.size() == known) touch_edges();
 }
 
 }  // namespace substep

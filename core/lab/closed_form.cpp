@@ -8,7 +8,7 @@
 namespace substep {
 namespace {
 
-constexpr double kFlush = 1e-9;  // [m] and [-]
+constexpr double kFlush = 1e-9;  // relative
 
 /// Index of the axis of R that is parallel to v, or -1.
 int axis_along(const Mat3& R, const Vec3& v) {
@@ -37,7 +37,9 @@ std::optional<UniformAcceleration> box_on_slope(const Scene& scene, const Body& 
   const Vec3 along = scene.gravity + pressing * n;
   const int up = axis_along(R, n);
   if (up < 0 || pressing <= 0.0) return std::nullopt;
-  if (std::abs(n.dot(box.position - plane->position) - half[up]) > kFlush) return std::nullopt;
+  if (std::abs(n.dot(box.position - plane->position) - half[up]) > kFlush * half[up]) {
+    return std::nullopt;
+  }
   UniformAcceleration motion{box.position, Vec3::Zero(), Vec3::Zero()};
   const double pulling = along.norm();
   if (pulling <= kFlush * pressing) return motion;

@@ -16,7 +16,7 @@ constexpr double kTreeClosed = 1e-10;     // relative to 1 m + the distance from
 constexpr double kTreeConsistent = 1e-9;  // of velocities, relative to 1 + the largest [-]
 constexpr double kTreeParallel = 1e-9;    // sine between the two axes of a hinge [-]
 constexpr double kEqualMoments = 1e-12;   // of moments of inertia, relative [-]
-constexpr double kTreeStretch = 1e-4;     // a tree is exact for rigid joints only [m]
+constexpr double kTreeStretch = 1e-5;     // of its reach: a tree is exact for rigid joints only
 // Condition number of the inertia about a ball joint. Its product with the rounding error is the
 // noise of accelerations, which shortens the steps: 1e7 takes some 100 per frame, 1e9 10,000.
 constexpr double kWorstCondition = 1e7;  // [-]
@@ -65,7 +65,7 @@ class JointTree::Builder {
     if (tree_.nodes_.empty()) return std::nullopt;
     start();
     if (!starts_as_the_scene() || !can_be_followed()) return std::nullopt;
-    if (!(tree_.stretch() <= kTreeStretch)) return std::nullopt;
+    if (!(tree_.stretch() <= kTreeStretch * tree_.reach())) return std::nullopt;
     return std::move(tree_);
   }
 

@@ -19,12 +19,12 @@
 namespace substep {
 namespace {
 
-constexpr double kChaoticWindow = 2.0;      // [s]
-constexpr double kChainUncertainty = 1e-9;  // of the integrator and of rounding over 10 s [m]
-constexpr int kFinest = 256;                // sub-steps per frame
+constexpr double kChaoticWindow = 2.0;  // [s]
+constexpr double kUncertainty = 1e-10;  // of the integrator and of rounding over 10 s, of lengths
+constexpr int kFinest = 256;            // sub-steps per frame
 // A chain is exact for rigid hinges. With a larger stretch by compliance, the finest run is closer
 // to the simulated motion.
-constexpr double kMostStretch = 1e-4;  // [m]
+constexpr double kMostStretch = 1e-5;  // of the length
 
 struct Sample {
   Vec3 x = Vec3::Zero();  // of the tracked body [m]
@@ -92,7 +92,7 @@ class MinimalCoordinates final : public ReferenceRun::Source {
   // The stretch lengthens the period, so the delay grows with every swing.
   [[nodiscard]] double uncertainty(double t) const override {
     const double swung = t * std::sqrt(scene_.gravity.norm() / chain_.length());
-    return kChainUncertainty + stretch_ * (1.0 + swung);
+    return kUncertainty * chain_.length() + stretch_ * (1.0 + swung);
   }
 
  private:
@@ -126,14 +126,13 @@ class TreeCoordinates final : public ReferenceRun::Source {
     return std::nullopt;
   }
   [[nodiscard]] double uncertainty(double t) const override {
-    const double swung =
-        t * std::sqrt(scene_.gravity.norm() / std::max(fine_.reach(), kLeastReach));
-    return kChainUncertainty + apart_ + stretch_ * (1.0 + swung);
+    const double reach = fine_.reach();  // a tree may have no arms
+    const double swung = reach > 0.0 ? t * std::sqrt(scene_.gravity.norm() / reach) : 0.0;
+    return kUncertainty * reach + apart_ + stretch_ * (1.0 + swung);
   }
 
  private:
-  static constexpr int kSlice = 64;            // steps of single bodies in a call
-  static constexpr double kLeastReach = 1e-3;  // of a tree that may have no arms [m]
+  static constexpr int kSlice = 64;  // steps of single bodies in a call
   static constexpr double kNothingLeft = Extrapolation::kRounding;
 
   Sample sample() {
@@ -242,7 +241,7 @@ std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scen
       double compliance = 0.0;
       for (const Joint& joint : scene->joints) compliance += base(joint).compliance;
       const double stretch = compliance * chain->weight();
-      if (stretch < kMostStretch) {
+      if (stretch < kMostStretch * chain->length()) {
         return std::make_unique<MinimalCoordinates>(*scene, std::move(*chain), stretch);
       }
     }

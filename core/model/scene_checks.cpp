@@ -67,12 +67,12 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
         length && j.compliance > 0.0 &&
         j.compliance >=
             scene.frame * scene.frame * (inverse_mass(scene, j.a) + inverse_mass(scene, j.b));
-    if (!is_spring && gap > largest_gap_at_start(scene, j)) {
+    if (!is_spring && gap > largest_gap(scene, j)) {
       const std::string where = length ? "away from their distance" : "apart";
-      problems.push_back(
-          {pointer_to("/joints", i), "the anchors start " + number_text(gap) + " " + where +
-                                         ", which is more than " +
-                                         number_text(largest_gap_at_start(scene, j)) + " (m)"});
+      problems.push_back({pointer_to("/joints", i), "the anchors start " + number_text(gap) + " " +
+                                                        where + ", which is more than " +
+                                                        number_text(largest_gap(scene, j)) +
+                                                        " (m)"});
     }
     const auto check_parallel = [&](const std::optional<JointAxes>& pair, const char* what) {
       if (!pair) return;

@@ -13,7 +13,6 @@ namespace substep {
 namespace {
 
 constexpr double kRelative = 1e-9;  // of lengths, angles and velocities [-]
-constexpr double kVelocity = 1e-8;  // [m/s, rad/s]
 constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();  // [-]
 
 /// Mean of J M^-1 J^T over some rows of a block [1/kg or 1/(kg m^2)].
@@ -79,8 +78,11 @@ JointStart measured(const Scene& scene, const State& state, const Block& block,
   const double length = kRelative * size_of_joint(scene, joint) + kRounding * size.distance;
   start.beyond.gap = !(start.gap <= length);
   start.beyond.tilt = !(sine <= kRelative);
-  start.beyond.speed = !(start.speed <= kVelocity + kRelative * size.speed);
-  start.beyond.turning = !(start.turning <= kVelocity + kRelative * size.turning);
+  // Slower, a joint opens by less than that part of its size in a frame.
+  const double speed = size_of_joint(scene, joint) / scene.frame + size.speed;
+  const double turning = 1.0 / scene.frame + size.turning;
+  start.beyond.speed = !(start.speed <= kRelative * speed);
+  start.beyond.turning = !(start.turning <= kRelative * turning);
   return start;
 }
 

@@ -38,9 +38,8 @@ struct JointStart {
 /// `joints`.
 ///
 /// Tolerances: a gap of 1e-9 of the joint's size (its arms and the radius of body a), a tilt of
-/// 1e-9 rad, and the rounding error far from the origin. Relative velocities of 1e-8 m/s and 1e-8
-/// rad/s, plus 1e-9 of the local velocities: `--seed` perturbs each velocity component by up to
-/// 1e-9 m/s, and that perturbation must not be projected away.
+/// 1e-9 rad, and the rounding error far from the origin. Relative velocities of 1e-9 of that size
+/// and of a radian in a frame, plus 1e-9 of the local velocities.
 std::vector<JointStart> joint_starts(const Scene& scene, const State& state);
 
 /// Tells the stage which rows are springs, by holding_rows() at a state.

@@ -10,8 +10,12 @@ namespace substep {
 namespace {
 
 // A body is at rest if all its points were slower than kRestSpeed for kRestTime.
-constexpr double kRestSpeed = 0.01;  // [m/s]
+constexpr double kRestSpeed = 0.04;  // half widths of its shape per second [1/s]
 constexpr double kRestTime = 0.5;    // [s]
+
+double half_width(const Body& body) {
+  return std::visit([](const auto& shape) { return shape.half_width(); }, body.shape);
+}
 
 }  // namespace
 
@@ -56,7 +60,8 @@ void Simulator::Impl::time_rest() {
   if (!settings.sleep) return state.rest.clear();
   state.rest.resize(scene->bodies.size(), 0.0);
   for (std::size_t i = 0; i < state.rest.size(); ++i) {
-    const bool slow = fastest_point(scene->bodies[i], state.u[i]) < kRestSpeed;
+    const Body& body = scene->bodies[i];
+    const bool slow = fastest_point(body, state.u[i]) < kRestSpeed * half_width(body);
     state.rest[i] = slow ? std::min(state.rest[i] + scene->frame, kRestTime) : 0.0;
   }
 }

@@ -8,7 +8,7 @@ namespace substep {
 
 namespace {
 
-constexpr double kTolerance = 1e-10;  // on bounds and complementarity, times 1 + |impulse|
+constexpr double kTolerance = 1e-11;  // on bounds and complementarity, relative
 constexpr int kPasses = 4;            // refreshes of the friction bounds, the first included
 constexpr int kSinglePivots = 50;     // per solve: Murty's rule terminates; this bounds its time
 constexpr int kSweeps = 100;          // sweeps of the fallback: 25 do not hold a house of cards
@@ -30,9 +30,29 @@ int refinements_of(const System& system, const Settings& settings) {
   return system.regularisation > 0.0 ? settings.refinements : 0;
 }
 
-double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse)); }
-
 }  // namespace
+
+// The speeds of the bodies, those without impulses included: of a stack at rest, what gravity adds
+// in a sub-step. Their direction does not matter, because impulses across it are as inexact.
+double Bpp::speed_tolerance(const System& system, const Block& contact, int row) const {
+  double sum = std::abs(contact.bias[row]);
+  const auto add = [&](int body, const double* J) {
+    if (body < 0) return;
+    const Eigen::Map<const Vec6> gradient(J);
+    for (const Vec6& u : {ldlt_.u_star()[index(body)], system.u[index(body)]}) {
+      sum += gradient.head<3>().norm() * u.head<3>().norm() +
+             gradient.tail<3>().norm() * u.tail<3>().norm();
+    }
+  };
+  add(contact.a, contact.J_a[row]);
+  add(contact.b, contact.J_b[row]);
+  return kTolerance * sum;
+}
+
+double Bpp::impulse_tolerance(const System& system, const Block& contact, int row) const {
+  return speed_tolerance(system, contact, row) / mobility_of(contact, row, system.inverse_mass) +
+         kTolerance * std::abs(contact.impulse[row]);
+}
 
 void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
   ldlt_.reserve(bodies, blocks);
@@ -250,10 +270,10 @@ bool Bpp::bounds_settled(const System& system) const {
     const Block& block = blocks[i];
     if (block.rows != 3 || !block.is_contact()) continue;
     const double bound = block.mu * std::max(0.0, block.impulse[0]);
-    const double room = tolerance(bound);
     for (int row = 1; row < 3; ++row) {
-      if (block.active_set[row] == 0 && std::abs(block.impulse[row]) > bound + room) return false;
-      if (block.active_set[row] != 0 && std::abs(bound - friction_bound_[i]) > room) return false;
+      const double beyond = block.active_set[row] == 0 ? std::abs(block.impulse[row]) - bound
+                                                       : std::abs(bound - friction_bound_[i]);
+      if (beyond > 0.0 && beyond > impulse_tolerance(system, block, row)) return false;
     }
   }
   return true;
@@ -294,11 +314,12 @@ int Bpp::pivot(const System& system, bool one_only) {
       std::int8_t set = block.active_set[row];
       if (set == 0 && lo <= x && x <= hi) continue;
       if (set == 0) {
-        if (x < lo - tolerance(x)) set = -1;
-        if (x > hi + tolerance(x)) set = 1;
+        const double beyond = std::max(lo - x, x - hi);
+        if (beyond > impulse_tolerance(system, block, row)) set = x < lo ? -1 : 1;
       } else {
         const double w = speed[row] + block.softness[row] * x + block.bias[row];
-        if (set < 0 ? w < -tolerance(x) : w > tolerance(x)) set = 0;
+        const double wrong_way = set < 0 ? -w : w;
+        if (wrong_way > 0.0 && wrong_way > speed_tolerance(system, block, row)) set = 0;
       }
       if (set == block.active_set[row]) continue;
       ++wrong;

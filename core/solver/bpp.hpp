@@ -49,6 +49,10 @@ class Bpp final : public Solver {
   /// number of infeasible rows
   int pivot(const System& system, bool one_only);
   void move(std::span<Block> blocks, const Move& move);
+  /// What counts as zero beside the other terms of a row: of its w [m/s], and of its impulse beyond
+  /// a bound [N s].
+  [[nodiscard]] double speed_tolerance(const System& system, const Block& contact, int row) const;
+  [[nodiscard]] double impulse_tolerance(const System& system, const Block& contact, int row) const;
   /// True if the current impulses are a better initial guess than zero.
   /// @param system u* on entry; overwritten
   [[nodiscard]] bool better_than_none(const System& system) const;

@@ -68,7 +68,7 @@ class Newton final : public Solver {
 
 namespace {
 
-constexpr double kConverged = 1e-9;  // largest change of a velocity in a step, relative
+constexpr double kConverged = 1e-9;  // change of a velocity in a step, of the largest
 
 /// Of the mean, average acceleration.
 constexpr PoseWeights kMean{0.25, 0.5, 0.25, 0.0};
@@ -225,8 +225,12 @@ void Newton::stiffen(const System& system, Forces forces) {
 
 double Newton::take(const System& system) {
   double change = 0.0;
+  double largest = 0.0;
   for (std::size_t i = 0; i < u_.size(); ++i) {
-    change = std::max(change, (u_[i] - system.u[i]).norm() / (1.0 + u_[i].norm()));
+    const double gyration = gyration_squared(system.inverse_mass[i]);
+    change = std::max(change, speed_squared(u_[i] - system.u[i], gyration));
+    largest = std::max(largest, speed_squared(u_[i], gyration));
+    largest = std::max(largest, speed_squared(u_star_[i], gyration));
     system.u[i] = u_[i];
   }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -234,7 +238,7 @@ double Newton::take(const System& system) {
     std::copy(rows_[i].impulse, rows_[i].impulse + block.rows, block.impulse);
     std::copy(rows_[i].active_set, rows_[i].active_set + block.rows, block.active_set);
   }
-  return change;
+  return change == 0.0 ? 0.0 : std::sqrt(change / largest);
 }
 
 SolveReport Newton::find_velocities(const System& system, const Settings& settings) {

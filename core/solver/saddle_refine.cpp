@@ -15,19 +15,33 @@ constexpr double kFalls = 0.5;         // required reduction of |w| per correcti
 constexpr double kChange = 1e-2;       // largest relative change of velocities by a correction
 constexpr double kAttainable = 1e-15;  // relative to the velocities: attainable accuracy
 
-double largest_of(std::span<const Vec6> u) {
-  double largest = 0.0;
-  for (const Vec6& of_body : u) largest = std::max(largest, of_body.cwiseAbs().maxCoeff());
-  return largest;
+/// The largest speed of a body [m/s].
+double largest_of(std::span<const Vec6> u, std::span<const InverseMass> inverse_mass) {
+  double square = 0.0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    square = std::max(square, speed_squared(u[i], gyration_squared(inverse_mass[i])));
+  }
+  return std::sqrt(square);
 }
 
 /// True if two sets of velocities are close. False with NaN.
-bool is_near(std::span<const Vec6> u, std::span<const Vec6> v) {
-  const double most = kChange * largest_of(v);
+bool is_near(std::span<const Vec6> u, std::span<const Vec6> v,
+             std::span<const InverseMass> inverse_mass) {
+  const double largest = kChange * largest_of(v, inverse_mass);
   for (std::size_t i = 0; i < u.size(); ++i) {
-    if (!((u[i] - v[i]).cwiseAbs().maxCoeff() <= most)) return false;
+    const double square = speed_squared(u[i] - v[i], gyration_squared(inverse_mass[i]));
+    if (!(square <= largest * largest)) return false;
   }
   return true;
+}
+
+/// Radius of gyration of the larger body, by which angular rows count as speeds [m].
+double length_of(const Block& block, std::span<const InverseMass> inverse_mass) {
+  double square = 0.0;
+  for (const int body : {block.a, block.b}) {
+    if (body >= 0) square = std::max(square, gyration_squared(inverse_mass[index(body)]));
+  }
+  return std::sqrt(square);
 }
 
 }  // namespace
@@ -41,9 +55,11 @@ double SaddleLdlt::start_correction(const System& system) {
   for (Block& block : system.blocks) {
     double w[kMaxRows];
     row_speeds(block, u_star_, w);
+    const double length = length_of(block, system.inverse_mass);
     for (int row = 0; row < block.rows; ++row) {
       block.bias[row] += block.softness[row] * block.impulse[row];
-      largest = std::max(largest, std::abs(w[row] + block.bias[row]));
+      const double left = std::abs(w[row] + block.bias[row]);
+      largest = std::max(largest, row < block.position_rows ? left : length * left);
       block.impulse[row] = 0.0;
     }
     flops_ += residual_flops(block);
@@ -131,10 +147,11 @@ void SaddleLdlt::correct(const System& system, bool consistent) {
     }
     const double left = start_correction(system);
     const bool better =
-        i == 0 || (left < kFalls * last && (consistent || is_near(system.u, u_earlier_)));
+        i == 0 || (left < kFalls * last &&
+                   (consistent || is_near(system.u, u_earlier_, system.inverse_mass)));
     if (!better) copy(u_earlier_, system.u);
-    const bool goes_on =
-        better && i < kMostCorrections && !(left <= kAttainable * largest_of(system.u));
+    const bool goes_on = better && i < kMostCorrections &&
+                         !(left <= kAttainable * largest_of(system.u, system.inverse_mass));
     if (goes_on) {
       copy(system.u, u_earlier_);
       read(blocks);

@@ -16,6 +16,17 @@ struct InverseMass {
   Mat3 angular = Mat3::Zero();  // world axes [1/(kg m^2)], symmetric
 };
 
+/// The square of a body's mean radius of gyration, 0 of a static one [m^2].
+inline double gyration_squared(const InverseMass& of) {
+  const double angular = of.angular.trace();
+  return angular > 0.0 ? 3.0 * of.linear / angular : 0.0;
+}
+
+/// The square of a velocity in which linear and angular ones count alike in any units [m^2/s^2].
+inline double speed_squared(const Vec6& u, double gyration_squared) {
+  return u.head<3>().squaredNorm() + gyration_squared * u.tail<3>().squaredNorm();
+}
+
 /// Resource limits of a solve.
 struct SolveLimits {
   double memory = std::numeric_limits<double>::infinity();  // for a factor [bytes]

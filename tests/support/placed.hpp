@@ -39,6 +39,7 @@ inline Scene in_units(Scene scene, double mass, double length, double time = 1.0
   scene.gravity *= length / (time * time);
   scene.contact.compliance *= compliance;
   scene.contact.friction_compliance *= compliance;
+  scene.contact.soft_compliance *= compliance;
   scene.contact.margin *= length;
   scene.contact.restitution_speed *= speed;
   scene.regularisation /= mass;

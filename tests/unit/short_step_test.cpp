@@ -124,7 +124,10 @@ TEST_P(EverySolverOfRigidBodies, SolutionsOfShortStepsAreComplementary) {
       apply_impulse(block, block.impulse, pile.inverse_mass, u);
       if (!block.is_contact() || block.impulse[0] == 0.0) continue;
       ++closed;
-      sliding += block.rows == 3 && std::abs(block.impulse[1]) >= block.mu * block.impulse[0];
+      // BPP's bound is that of its last pass but one.
+      constexpr double kAtBound = 1.0 - 1e-6;
+      sliding +=
+          block.rows == 3 && std::abs(block.impulse[1]) >= kAtBound * block.mu * block.impulse[0];
     }
     for (std::size_t i = 0; i < u.size(); ++i) {
       EXPECT_LT((u[i] - pile.state.u[i]).norm(), kTurned) << "trial " << trial;

@@ -149,9 +149,6 @@ struct EdgePair {
                                                           // all edges are parallel
 };
 
-/// Geometric mean of the largest and the smallest half extent [m].
-double mean_extent(const Vec3& half) { return std::sqrt(half.maxCoeff() * half.minCoeff()); }
-
 EdgePair best_edges(const Placed& a, const Vec3& half_a, const Placed& b, const Vec3& half_b) {
   EdgePair best;
   const Vec3 d = a.x - b.x;
@@ -197,6 +194,9 @@ bool edge_point(const EdgePair& edges, const Placed& a, const Vec3& half_a, cons
   return true;
 }
 
+/// Geometric mean of the largest and the smallest half extent [m].
+double mean_extent(const Vec3& half) { return std::sqrt(half.maxCoeff() * half.minCoeff()); }
+
 }  // namespace
 
 BoxAxis separating_axis(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b) {
@@ -223,21 +223,23 @@ void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b,
   const EdgePair edges = best_edges(a, box_a.half_extents, b, box_b.half_extents);
   if (edges.gap > margin) return;
   // Prefer faces unless two edges are clearly better: alternating between one contact and four
-  // shakes a stack, and faces in contact have crossing edges at nearly the same gap, apart by the
-  // tilt times a length. For that of the box a plate would be found too late.
+  // shakes a stack, and faces in contact have crossing edges at nearly the same gap. The two gaps
+  // differ by the tilt times a length; with the longest one, thin plates would be detected too
+  // late.
   const double length = std::min(mean_extent(box_a.half_extents), mean_extent(box_b.half_extents));
   const auto touch_edges = [&] {
     return edge_point(edges, a, box_a.half_extents, b, box_b.half_extents, out);
   };
   if (edges.gap > std::max(on_a.gap, on_b.gap) + kTilt * length && touch_edges()) return;
   // Prefer b's face unless a's is clearly better, so that faces in contact do not alternate.
-  constexpr double kPreference = 1e-3;
+  constexpr double kPreference = 1e-3;  // of that length [-]
   const std::size_t known = out.size();
   if (on_a.gap > on_b.gap + kPreference * length) {
     face_points(b, box_b.half_extents, a, box_a.half_extents, on_a, margin, out);
   } else {
     face_points(a, box_a.half_extents, b, box_b.half_extents, on_b, margin, out);
   }
+  // Shallow overlaps: the preferred faces may have no common point.
   const bool overlaps = edges.gap < 0.0 && edges.gap > std::max(on_a.gap, on_b.gap);
   if (overlaps && out.size() == known) touch_edges();
 }

@@ -24,7 +24,7 @@ struct ContactModel {
   double friction_compliance = 1e-10;  // C of the friction rows [m/N]
   double margin = 0.02;                // rows are created for gaps up to this [m]
   double restitution_speed = 0.1;      // slower approaches do not bounce [m/s]
-  double soft_compliance = 1e-6;       // from here on contacts are springs [m/N]
+  double soft_compliance = 1e-6;       // contacts at least as compliant are springs [m/N]
 };
 
 /// True if contacts are springs; stiffer ones model rigid bodies, which land without rebound or

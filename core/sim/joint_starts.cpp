@@ -78,7 +78,7 @@ JointStart measured(const Scene& scene, const State& state, const Block& block,
   const double length = kRelative * size_of_joint(scene, joint) + kRounding * size.distance;
   start.beyond.gap = !(start.gap <= length);
   start.beyond.tilt = !(sine <= kRelative);
-  // Slower, a joint opens by less than that part of its size in a frame.
+  // At a lower speed a joint opens by less than kRelative of its size in a frame.
   const double speed = size_of_joint(scene, joint) / scene.frame + size.speed;
   const double turning = 1.0 / scene.frame + size.turning;
   start.beyond.speed = !(start.speed <= kRelative * speed);

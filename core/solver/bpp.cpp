@@ -32,8 +32,9 @@ int refinements_of(const System& system, const Settings& settings) {
 
 }  // namespace
 
-// The speeds of the bodies, those without impulses included: of a stack at rest, what gravity adds
-// in a sub-step. Their direction does not matter, because impulses across it are as inexact.
+// Relative to the speeds of the bodies before and after the solve: in a stack at rest, those that
+// gravity adds in a sub-step. Speeds across the row count too, because their impulses have rounding
+// errors of the same size.
 double Bpp::speed_tolerance(const System& system, const Block& contact, int row) const {
   double sum = std::abs(contact.bias[row]);
   const auto add = [&](int body, const double* J) {

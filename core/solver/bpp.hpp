@@ -49,8 +49,7 @@ class Bpp final : public Solver {
   /// number of infeasible rows
   int pivot(const System& system, bool one_only);
   void move(std::span<Block> blocks, const Move& move);
-  /// What counts as zero beside the other terms of a row: of its w [m/s], and of its impulse beyond
-  /// a bound [N s].
+  /// Tolerances on the complementarity of a row, w [m/s], and on its bounds [N s].
   [[nodiscard]] double speed_tolerance(const System& system, const Block& contact, int row) const;
   [[nodiscard]] double impulse_tolerance(const System& system, const Block& contact, int row) const;
   /// True if the current impulses are a better initial guess than zero.

@@ -68,7 +68,7 @@ class Newton final : public Solver {
 
 namespace {
 
-constexpr double kConverged = 1e-9;  // change of a velocity in a step, of the largest
+constexpr double kConverged = 1e-9;  // largest change of a speed in a step, of the fastest body's
 
 /// Of the mean, average acceleration.
 constexpr PoseWeights kMean{0.25, 0.5, 0.25, 0.0};

@@ -154,7 +154,7 @@ void SaddleLdlt::soften(const Node& node, std::span<const Block> blocks, double 
   for (int i = 0; i < node.n_rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
     f.S[i * node.n_rows + i] += share * mean_mobility(blocks[index(row.attached->block)], row.row);
-    // No pivot is zero any more, and to clamp one would drop its row.
+    // The bound on pivots must lie below the softness: a clamped pivot drops its row.
     f.S_inverse[i] *= share;
   }
 }

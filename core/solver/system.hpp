@@ -22,7 +22,8 @@ inline double gyration_squared(const InverseMass& of) {
   return angular > 0.0 ? 3.0 * of.linear / angular : 0.0;
 }
 
-/// The square of a velocity in which linear and angular ones count alike in any units [m^2/s^2].
+/// Square of a body's linear speed plus that of its angular speed times the radius of gyration
+/// [m^2/s^2].
 inline double speed_squared(const Vec6& u, double gyration_squared) {
   return u.head<3>().squaredNorm() + gyration_squared * u.tail<3>().squaredNorm();
 }

@@ -76,7 +76,7 @@ inline void expect_order(const Scene& scene, const JointMethod& method, double s
   EXPECT_LT(fine, std::max(floor, 1.15 * coarse / shrinks)) << coarse;
 }
 
-/// Saved after 20 frames and read again, a run goes on with the same bits.
+/// A run that is saved after 20 frames and read again continues bit for bit.
 inline void expect_continues(const Scene& scene, const Settings& settings) {
   Simulator whole = simulator_of(scene, settings);
   for (int i = 0; i < 20; ++i) ASSERT_EQ(whole.step().status, StepStatus::kOk);

@@ -20,6 +20,7 @@ export class Clock {
     this.frames = 0; // of the browser
     this.shownIn = -1; // the last frame of the browser in which a picture was shown
     this.timer = 0; // for a frame that was begun and not shown
+    this.ended = false; // a listener of a frame may end the clock
     this.pictures = frame.canvas.pictures = { begun: 0, shown: 0 }; // for tests that read pixels
     this.graphics = new Graphics(wasm, frame, () => this.wake());
     this.seen = false; // until the observer reports it
@@ -39,7 +40,7 @@ export class Clock {
     this.request = requestAnimationFrame(this.tick);
   }
 
-  canDraw() { return !this.wasm.stopped && this.graphics.canDraw(); }
+  canDraw() { return !this.ended && !this.wasm.stopped && this.graphics.canDraw(); }
 
   /** Keeps drawing until animations have ended. */
   wake() {
@@ -110,6 +111,7 @@ export class Clock {
   }
 
   stop() {
+    this.ended = true;
     cancelAnimationFrame(this.request);
     clearTimeout(this.timer);
     this.watcher.disconnect();

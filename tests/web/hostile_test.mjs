@@ -156,22 +156,25 @@ test("listeners and getters may remove the laboratory", async () => {
   const page = await openArticle();
   const answer = await page.evaluate(async () => {
     const { none, adaptive } = window.laboratories;
-    await new Promise((done) => {
+    const { pictures } = document.querySelector("canvas.substep-view");
+    const begun = await new Promise((done) => {
       none.on("frame", () => {
         none.remove();
-        done();
+        done(pictures.begun);
       });
       none.play();
     });
-    return adaptive.load({
+    const loaded = adaptive.load({
       get name() {
         adaptive.remove();
         return "x";
       },
     });
+    await new Promise((done) => { setTimeout(done, 500); });
+    return { ...loaded, after: pictures.begun - begun };
   });
+  assert.equal(answer.after, 0, "pictures begun after remove()");
   assert.equal(answer.ok, false);
   assert.match(answer.problems[0].message, /was removed/);
-  await page.waitForTimeout(500);
   await leave(page);
 });

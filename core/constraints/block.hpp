@@ -19,11 +19,12 @@ inline constexpr double kStaysOpen = 1e30;
 /// Block::active_set of a row without a previous sub-step.
 inline constexpr std::int8_t kUnknownSet = 2;
 
-/// For joints, the index of their type in the Joint variant.
-enum class BlockKind : std::uint8_t { kFirstJoint, kContact = 255 };
+/// For joints, the index of their type in the Joint variant; for the coordinate of a joint that is
+/// limited or driven, its index in CoordinateTable.
+enum class BlockKind : std::uint8_t { kFirstJoint, kFirstCoordinate = 128, kContact = 255 };
 
-/// The rows of one joint or of one contact point, on at most two moving bodies; array elements
-/// beyond `rows` are unspecified. Eq. 3 row by row:
+/// The rows of one joint, of a limit or motor of one, or of one contact point, on at most two
+/// moving bodies; array elements beyond `rows` are unspecified. Eq. 3 row by row:
 ///   J u+ + softness * impulse = -bias,   lo <= impulse <= hi.
 /// A static body or the world is -1 and has no columns.
 struct Block {
@@ -40,10 +41,16 @@ struct Block {
   bool has_point_rows = false;
   std::int8_t position_rows = 0;  // joint: number of positional rows; they precede the angular ones
   bool seeded = false;            // the block existed in the last sub-step: impulse is its seed
-  bool was_closed = false;        // contact: carried a force in the last sub-step
-  bool awaits = false;            // contact: open, it closes at the end of the sub-step or later
-  bool soft = false;              // contact: a spring
+  // Contact or limit.
+  bool was_closed = false;           // carried a force in the last sub-step
+  bool awaits = false;               // open, it closes at the end of the sub-step or later
+  bool soft = false;                 // a spring
+  double restitution = 0.0;          // limit [-]
   std::int8_t active_set[kMaxRows];  // BPP: -1 at lo, 0 free (always for joints), +1 at hi
+  // Bounds of the impulse of row 0, unset for a joint, which has none: 0 and infinity for a contact
+  // or a limit, those of its torque for a motor [N s or N m s].
+  double lo = -kUnbounded;
+  double hi = kUnbounded;
 
   // Point rows in a direct solve read only the members up to here, to save memory bandwidth.
   Vec3 r_a = Vec3::Zero();  // arms from the centres of mass to the point of action, world [m]
@@ -76,7 +83,7 @@ struct Block {
   Vec3 arm_a = Vec3::Zero();  // from a's centre to the point that rotates with a (0 for a sphere)
   Mat3 H = Mat3::Zero();      // curvature of b's distance field at a's point [1/m]: dn = H dx
   // Joints with an axis, world: axis u fixed in a, and v1, v2 across it fixed in b. If the
-  // orientation is fixed: w across the axis fixed in a.
+  // orientation is fixed or the angle is limited: w across the axis fixed in a.
   Vec3 axis = Vec3::Zero();
   Vec3 v1 = Vec3::Zero();
   Vec3 v2 = Vec3::Zero();
@@ -84,7 +91,8 @@ struct Block {
 
   // For compliant rows, compliance.hpp.
   double elastic[kMaxRows] = {};  // elastic part of phi [m or rad]
-  double curved = 0.0;            // contact: change of the gap in this sub-step beyond dt J u [m]
+  // Contact or limit: change of the gap in this sub-step beyond dt J u [m or rad].
+  double curved = 0.0;
   double spring_ahead[kMaxRows] = {};  // w+, 0 if the row is not a spring
   double given[kMaxRows] = {};         // impulse prescribed before the solve [N s or N m s]
   double spring_rest[kMaxRows] = {};   // part of the mean stretch known before the solve [m or rad]
@@ -97,6 +105,12 @@ struct Block {
   double last_rate_age = 0.0;         // age of that rate relative to that force [s]
 
   [[nodiscard]] bool is_contact() const { return kind == BlockKind::kContact; }
+  /// A contact, a limit or a motor: its impulses have bounds.
+  [[nodiscard]] bool is_bounded() const { return kind >= BlockKind::kFirstCoordinate; }
+  /// A contact or a limit: it only pushes, and opens and closes.
+  [[nodiscard]] bool is_unilateral() const { return is_bounded() && !(hi < kUnbounded); }
+  /// A motor.
+  [[nodiscard]] bool is_motor() const { return is_bounded() && hi < kUnbounded; }
 };
 
 /// J of one row on one side, with point rows or without.

@@ -14,6 +14,8 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
   block.body_a = point.a;
   block.body_b = point.b;
   block.rows = 1;
+  block.lo = 0.0;
+  block.hi = kUnbounded;
   block.awaits = false;
   block.has_point_rows = false;
   const Vec3 b_from_a = x_b - x_a;

@@ -25,6 +25,9 @@ struct JointGeometry {
   Vec3 v2 = Vec3::Zero();
   Vec3 w = Vec3::Zero();
   double length = 0.0;  // of a distance joint [m]
+  // Limited coordinate: the middle of its range and half of its width [rad].
+  double middle = 0.0;
+  double half_range = 0.0;
 };
 
 /// Change of a body's pose since its rows were computed. Zero for the world and static bodies.

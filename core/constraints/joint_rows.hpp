@@ -5,11 +5,13 @@
 #include <concepts>
 #include <cstddef>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "core/constraints/ball_joint.hpp"
 #include "core/constraints/distance_joint.hpp"
+#include "core/constraints/hinge_angle.hpp"
 #include "core/constraints/hinge_joint.hpp"
 #include "core/constraints/prismatic_joint.hpp"
 #include "core/constraints/stiffness_matrix.hpp"
@@ -17,16 +19,12 @@
 
 namespace substep {
 
-/// Interface of a joint type J. Forces are per row.
-template <class Rows, class J>
-concept JointRows = requires(const J& joint, Block& block, const Block& start,
-                             const JointGeometry& geometry, const Side& side, const Vec6& velocity,
-                             const Motion& motion, RowRange range, double* out, const double* force,
-                             Vec6& push, StiffnessMatrix& K) {
-  // Constant part of its block: numbers of rows, compliance.
-  { Rows::constants(joint, block) } -> std::same_as<void>;
-  // The joint's data for rows().
-  { Rows::geometry(joint) } -> std::same_as<JointGeometry>;
+/// Rows that depend on the poses of two bodies. Forces are per row.
+template <class Rows>
+concept PoseRows = requires(Block& block, const Block& start, const JointGeometry& geometry,
+                            const Side& side, const Vec6& velocity, const Motion& motion,
+                            RowRange range, double* out, const double* force, Vec6& push,
+                            StiffnessMatrix& K) {
   // phi and J at the poses of its sides.
   { Rows::rows(geometry, side, side, block) } -> std::same_as<void>;
   // d2phi/dt2 at constant velocities of a and b [m/s, rad/s].
@@ -46,12 +44,24 @@ concept JointRows = requires(const J& joint, Block& block, const Block& start,
   { Rows::push_change(start, motion, motion, force, push, push) } -> std::same_as<void>;
 };
 
+/// Interface of a joint type J.
+template <class Rows, class J>
+concept JointRows = PoseRows<Rows> && requires(const J& joint, Block& block) {
+  // Constant part of its block: numbers of rows, compliance.
+  { Rows::constants(joint, block) } -> std::same_as<void>;
+  // The joint's data for rows().
+  { Rows::geometry(joint) } -> std::same_as<JointGeometry>;
+};
+
 /// In the order of the Joint variant.
 using JointTable = std::tuple<BallRows, HingeRows, PrismaticRows, WeldRows, DistanceRows>;
 
+/// Coordinates of joints that limits and motors act on, one row each.
+using CoordinateTable = std::tuple<HingeAngle>;
+
 inline constexpr std::size_t kJointKinds = std::variant_size_v<Joint>;
 static_assert(std::tuple_size_v<JointTable> == kJointKinds);
-static_assert(kJointKinds < static_cast<std::size_t>(BlockKind::kContact));
+static_assert(kJointKinds <= static_cast<std::size_t>(BlockKind::kFirstCoordinate));
 static_assert([]<std::size_t... I>(std::index_sequence<I...>) {
   return (JointRows<std::tuple_element_t<I, JointTable>, std::variant_alternative_t<I, Joint>> &&
           ...);
@@ -60,16 +70,39 @@ static_assert([]<std::size_t... I>(std::index_sequence<I...>) {
 /// The block kind of a joint.
 inline BlockKind kind_of(const Joint& joint) { return static_cast<BlockKind>(joint.index()); }
 
-/// Calls `visit` with the table entry of a joint type. @param kind not kContact
+inline constexpr std::size_t kCoordinates = std::tuple_size_v<CoordinateTable>;
+static_assert([]<std::size_t... I>(std::index_sequence<I...>) {
+  return (PoseRows<std::tuple_element_t<I, CoordinateTable>> && ...);
+}(std::make_index_sequence<kCoordinates>{}));
+
+/// The block kind of a coordinate of CoordinateTable.
+template <class Rows, std::size_t kFirst = 0>
+constexpr BlockKind kind_of_coordinate() {
+  if constexpr (std::is_same_v<Rows, std::tuple_element_t<kFirst, CoordinateTable>>) {
+    return static_cast<BlockKind>(static_cast<std::size_t>(BlockKind::kFirstCoordinate) + kFirst);
+  } else {
+    return kind_of_coordinate<Rows, kFirst + 1>();
+  }
+}
+
+/// Calls `visit` with the table entry of a joint or a coordinate. @param kind not kContact
 template <std::size_t kFirst = 0, class Visit>
 [[gnu::always_inline]] inline void with_joint_rows(BlockKind kind, Visit&& visit) {
-  using Rows = std::tuple_element_t<kFirst, JointTable>;
-  if constexpr (kFirst + 1 == kJointKinds) {
-    visit(Rows{});
-  } else if (kind == static_cast<BlockKind>(kFirst)) {
-    visit(Rows{});
+  if constexpr (kFirst < kJointKinds) {
+    if (kind == static_cast<BlockKind>(kFirst)) {
+      visit(std::tuple_element_t<kFirst, JointTable>{});
+    } else {
+      with_joint_rows<kFirst + 1>(kind, visit);
+    }
   } else {
-    with_joint_rows<kFirst + 1>(kind, visit);
+    using Rows = std::tuple_element_t<kFirst - kJointKinds, CoordinateTable>;
+    if constexpr (kFirst - kJointKinds + 1 == kCoordinates) {
+      visit(Rows{});
+    } else if (kind == kind_of_coordinate<Rows>()) {
+      visit(Rows{});
+    } else {
+      with_joint_rows<kFirst + 1>(kind, visit);
+    }
   }
 }
 

@@ -49,6 +49,9 @@ inline bool has_torque(const Scene& scene) {
                      [](const Body& body) { return !body.is_static && !body.torque.isZero(0.0); });
 }
 
+/// True if torques that have no potential do work: energy may then grow.
+inline bool is_driven(const Scene& scene) { return scene.effects.motors || has_torque(scene); }
+
 /// True if applied forces other than the known ones act on bodies.
 inline bool has_applied_forces(const Effects& effects,
                                std::initializer_list<bool Effects::*> known = {}) {

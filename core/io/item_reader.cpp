@@ -109,6 +109,18 @@ struct OwnFieldReader {
     // One that may not be 0 has no default.
     in.number(key, range, number, range.contains(0.0) ? kOptional : kRequired);
   }
+  template <class Part>
+  void operator()(std::string_view key, std::optional<Part>& target) const {
+    const Json* json = in.member(key, kOptional);
+    if (json == nullptr) return;
+    ObjectReader inner = in.inner(key, *json);
+    Part part;
+    if (inner.is_object()) {
+      Part::own_fields(part, OwnFieldReader{inner});
+      inner.finish();
+    }
+    target = part;
+  }
 };
 
 }  // namespace
@@ -166,7 +178,7 @@ Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& 
   in.number("compliance", kComplianceRange, j.compliance, kOptional);
   std::visit([&](auto& own) { own.own_fields(own, OwnFieldReader{in}); }, joint);
   if (problems.size() == before) {
-    if (const auto fault = across_fault(joint)) in.problem(fault->key, fault->message);
+    if (const auto fault = direction_fault(joint)) in.problem(fault->key, fault->message);
   }
   in.finish();
   return joint;

@@ -54,6 +54,11 @@ class ObjectReader {
   /// The raw member, or null.
   const Json* member(std::string_view key, Presence presence);
 
+  /// A reader of a member that is an object.
+  [[nodiscard]] ObjectReader inner(std::string_view key, const Json& member) const {
+    return {member, pointer(key), problems_};
+  }
+
   /// A problem of one member, or of the object itself where key is "".
   void problem(std::string_view key, std::string message);
   /// A problem of one item of a list.

@@ -67,13 +67,20 @@ Json body_json(const Body& body) {
   return json;
 }
 
-/// Writes axes at once, and numbers to where the compliance comes first.
+/// Writes directions and optional parts at once, and numbers to where the compliance comes first.
 struct OwnFieldWriter {
   Json& axes;
   Json& numbers;
 
   void operator()(const char* key, const Vec3& axis) const { axes[key] = vector_json(axis); }
   void operator()(const char* key, double number, const Range&) const { numbers[key] = number; }
+  template <class Part>
+  void operator()(const char* key, const std::optional<Part>& part) const {
+    if (!part) return;
+    Json json;
+    Part::own_fields(*part, OwnFieldWriter{json, json});
+    numbers[key] = std::move(json);
+  }
 };
 
 /// @param body index, or kWorld

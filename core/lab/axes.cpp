@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/forces/applied_forces.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/model/methods.hpp"
 
 namespace substep {
@@ -84,6 +85,13 @@ std::string energy_changes_by(const Scene& scene, bool touches) {
       })) {
     return "impacts";
   }
+  if (effects.limits && std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& j) {
+        const AngleLimit* limit = limit_of(j);
+        return limit != nullptr && (!effects.restitution || limit->restitution < 1.0);
+      })) {
+    return "limits";
+  }
+  if (effects.motors) return "motors";
   return has_torque(scene) ? "a constant torque" : "";
 }
 

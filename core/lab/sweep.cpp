@@ -28,6 +28,11 @@ constexpr std::array kMapAlpha{1.0, 0.5, 0.25, 0.1, 0.05};
 constexpr double kMapLoads[] = {0.01, 0.1, 0.32, 3.2, 10.0};
 constexpr double kReferenceWork = 0.05;  // share of the progress bar
 
+/// True if rows of the scene may open, close, or reach a bound.
+bool has_bounds(const Scene& scene) {
+  return scene.effects.contact || scene.effects.limits || scene.effects.motors;
+}
+
 /// With the direct solver, N decided once per frame.
 Settings direct(Settings settings, Integrator integrator) {
   settings.solver = SolverKind::kBpp;
@@ -89,7 +94,7 @@ void append_implicit(Settings settings, const Scene& scene, std::vector<Settings
   }
   for (const int steps : kNewtonSteps) along(SolverKind::kNewton, steps, Forces::kMean);
   along(SolverKind::kNewton, iterations, Forces::kMean);
-  if (scene.effects.contact) return;  // the following is derived for joints only
+  if (has_bounds(scene)) return;  // the following is derived for joints only
   for (const int steps : kNewtonSteps) along(SolverKind::kNewton, steps, Forces::kNumerov);
   along(SolverKind::kNewton, iterations, Forces::kNumerov);
 }
@@ -238,7 +243,7 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   if (scene.effects.joints) {
     direct_curve(Integrator::kLeapfrog, Mode::kConst, &Settings::drift_order, 2);
   }
-  if (scene.effects.joints && !scene.effects.contact) {  // it is derived for joints only
+  if (scene.effects.joints && !has_bounds(scene)) {  // it is derived for joints only
     append_curve(direct(base, Integrator::kStormer), Mode::kConst, all);
     append_curve(direct(base, Integrator::kStormer), Mode::kAdaptive, all);
   }

@@ -103,7 +103,7 @@ Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& star
       inside_at_start_(start.inside) {
   if (refused_ || start.status == StepStatus::kInvalid) return;
   judges_overlaps_ = !scene.criteria.energy_gain && !is_soft(scene.contact);
-  if (!scene.criteria.energy_gain && !has_torque(scene)) energy_.emplace(scene, start);
+  if (!scene.criteria.energy_gain && !is_driven(scene)) energy_.emplace(scene, start);
   if (scene.effects.contact) passages_.emplace(scene, state);
   if (!scene.criteria.displacement) return;
   watched_start_ = state.x[index(scene.criteria.displacement->body)];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/model/joint_fields.hpp"
 #include "core/model/number_checks.hpp"
@@ -65,6 +66,11 @@ struct OwnFieldCheck {
   void operator()(const char* key, double number, const Range& range) const {
     check_number(number, range, place.at(key), problems);
   }
+  template <class Part>
+  void operator()(const char* key, const std::optional<Part>& part) const {
+    const DataPlace there = place.at(key);
+    if (part) Part::own_fields(*part, OwnFieldCheck{there, problems});
+  }
 };
 
 }  // namespace
@@ -104,20 +110,47 @@ std::optional<std::string> axis_fault(const Vec3& axis) {
   return not_unit_text(length);
 }
 
-std::optional<JointFault> across_fault(const Joint& joint) {
+namespace {
+
+std::optional<std::string> across_axis_fault(const Vec3& axis, const Vec3& v) {
+  const double cosine = std::abs(axis.dot(v));
+  if (cosine <= kUnitTolerance) return std::nullopt;
+  return "must be perpendicular to the axis: the cosine of their angle is " + number_text(cosine) +
+         ", which is more than " + number_text(kUnitTolerance);
+}
+
+std::optional<JointFault> limit_fault(const JointAxes& axes, const AngleLimit& limit) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  if (!(limit.lower < limit.upper)) {
+    return JointFault{"limit", "upper must be above lower, " + number_text(limit.lower) +
+                                   " (rad), not " + number_text(limit.upper)};
+  }
+  if (!(limit.upper - limit.lower < kTurn)) {
+    return JointFault{"limit", "upper and lower must be less than a full turn apart, not " +
+                                   number_text(limit.upper - limit.lower) + " (rad)"};
+  }
+  if (const auto fault = across_axis_fault(axes.a, limit.across_a)) {
+    return JointFault{"limit", "across_a " + *fault};
+  }
+  if (const auto fault = across_axis_fault(axes.b, limit.across_b)) {
+    return JointFault{"limit", "across_b " + *fault};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<JointFault> direction_fault(const Joint& joint) {
   const auto axes = axes_of(joint);
+  if (!axes) return std::nullopt;
+  if (const AngleLimit* limit = limit_of(joint)) return limit_fault(*axes, *limit);
   const auto across = across_of(joint);
-  if (!axes || !across) return std::nullopt;
-  const auto fault = [](std::string_view key, const Vec3& axis,
-                        const Vec3& v) -> std::optional<JointFault> {
-    const double cosine = std::abs(axis.dot(v));
-    if (cosine <= kUnitTolerance) return std::nullopt;
-    return JointFault{key, "must be perpendicular to the axis: the cosine of their angle is " +
-                               number_text(cosine) + ", which is more than " +
-                               number_text(kUnitTolerance)};
-  };
-  if (auto of_a = fault("across_a", axes->a, across->a)) return of_a;
-  return fault("across_b", axes->b, across->b);
+  if (!across) return std::nullopt;
+  if (const auto fault = across_axis_fault(axes->a, across->a))
+    return JointFault{"across_a", *fault};
+  if (const auto fault = across_axis_fault(axes->b, across->b))
+    return JointFault{"across_b", *fault};
+  return std::nullopt;
 }
 
 std::optional<std::string> body_fault(const std::vector<Body>& bodies, int body,
@@ -172,7 +205,7 @@ void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Data
   check_numbers(j.anchor_b, kPositionRange, place.at("anchor_b"), problems);
   check_number(j.compliance, kComplianceRange, place.at("compliance"), problems);
   std::visit([&](const auto& own) { own.own_fields(own, OwnFieldCheck{place, problems}); }, joint);
-  if (const auto fault = across_fault(joint)) {
+  if (const auto fault = direction_fault(joint)) {
     problems.push_back({place.at(fault->key).pointer(), fault->message});
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/model/joint_fields.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {
@@ -38,7 +39,19 @@ bool needs_friction(const Scene& scene) {
 
 bool needs_restitution(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& body) { return body.collides && body.restitution > 0.0; });
+                     [](const Body& body) { return body.collides && body.restitution > 0.0; }) ||
+         std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
+           const AngleLimit* limit = limit_of(joint);
+           return limit != nullptr && limit->restitution > 0.0;
+         });
+}
+
+bool needs_limits(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), limit_of);
+}
+
+bool needs_motors(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), motor_of);
 }
 
 bool needs_external(const Scene& scene) {

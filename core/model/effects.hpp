@@ -17,6 +17,8 @@ struct Effects {
   bool friction = false;
   bool restitution = false;
   bool external = false;  // the constant forces and torques of bodies
+  bool limits = false;    // of joints
+  bool motors = false;    // of joints
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };
@@ -29,6 +31,8 @@ bool needs_contact(const Scene& scene);
 bool needs_friction(const Scene& scene);
 bool needs_restitution(const Scene& scene);
 bool needs_external(const Scene& scene);
+bool needs_limits(const Scene& scene);
+bool needs_motors(const Scene& scene);
 
 struct EffectEntry {
   std::string_view name;  // in files
@@ -36,6 +40,7 @@ struct EffectEntry {
   bool (*needed)(const Scene&);
   const char* about;                    // in a few words
   bool Effects::*depends_on = nullptr;  // another effect; null: none
+  bool Effects::*or_on = nullptr;       // that one suffices too
 };
 
 /// Every effect, in file order: the one table for files, measured costs, window and command line.
@@ -50,9 +55,13 @@ inline constexpr std::array kEffects{
     EffectEntry{"friction", &Effects::friction, needs_friction,
                 "Coulomb friction in contacts, boxed: |λ t| ≤ μ λ n.", &Effects::contact},
     EffectEntry{"restitution", &Effects::restitution, needs_restitution,
-                "Contacts that bounce (Newton's law).", &Effects::contact},
+                "Contacts and limits that bounce (Newton's law).", &Effects::contact,
+                &Effects::limits},
     EffectEntry{"external", &Effects::external, needs_external,
-                "Constant forces and torques of the scene on its bodies."}};
+                "Constant forces and torques of the scene on its bodies."},
+    EffectEntry{"limits", &Effects::limits, needs_limits,
+                "Limits of joints. Off: hinges turn freely.", &Effects::joints},
+    EffectEntry{"motors", &Effects::motors, needs_motors, "Motors of joints.", &Effects::joints}};
 
 constexpr bool lists_each_flag() {
   Effects listed;
@@ -63,11 +72,18 @@ constexpr bool lists_each_flag() {
 }
 static_assert(lists_each_flag(), "one entry for each flag");
 
+/// True if an effect can act: it depends on none, or on one that is enabled.
+inline bool can_act(const EffectEntry& effect, const Effects& enabled) {
+  return effect.depends_on == nullptr || enabled.*effect.depends_on ||
+         (effect.or_on != nullptr && enabled.*effect.or_on);
+}
+
 /// Disables the effects that depend on a disabled one.
 inline void disable_dependents(Effects& effects) {
-  for (const EffectEntry& effect : kEffects) {
-    if (effect.depends_on != nullptr && !(effects.*effect.depends_on))
-      effects.*effect.member = false;
+  for (int pass = 0; pass < 2; ++pass) {  // restitution may depend on limits, they on joints
+    for (const EffectEntry& effect : kEffects) {
+      if (!can_act(effect, effects)) effects.*effect.member = false;
+    }
   }
 }
 

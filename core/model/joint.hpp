@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -23,8 +24,39 @@ struct JointBase {
 };
 
 // Each type has kType, its name in files, and own_fields(), which lists its members beyond
-// JointBase for reading, writing and checking: field(key, direction) for each unit vector and
-// field(key, number, range) for each number.
+// JointBase for reading, writing and checking: field(key, direction) for each unit vector,
+// field(key, number, range) for each number, and field(key, part) for each optional part, which has
+// own_fields() too.
+
+/// Bounds of the angle of a hinge: the rotation of across_a from across_b about the axis.
+struct AngleLimit {
+  double lower = 0.0;             // [rad]
+  double upper = 0.0;             // above lower, by less than a full turn [rad]
+  double restitution = 0.0;       // [-]
+  Vec3 across_a = Vec3::UnitX();  // unit, perpendicular to axis_a, in the frame of a [-]
+  Vec3 across_b = Vec3::UnitX();  // unit, perpendicular to axis_b, in the frame of b [-]
+
+  template <class Part, class Field>
+  static void own_fields(Part& limit, Field&& field) {
+    field("lower", limit.lower, kAngleRange);
+    field("upper", limit.upper, kAngleRange);
+    field("restitution", limit.restitution, kRestitutionRange);
+    field("across_a", limit.across_a);
+    field("across_b", limit.across_b);
+  }
+};
+
+/// Turns a relative to b about the axis of their hinge, with as much torque as it has.
+struct AngularMotor {
+  double velocity = 0.0;  // [rad/s]
+  double torque = 1.0;    // largest, > 0 [N m]
+
+  template <class Part, class Field>
+  static void own_fields(Part& motor, Field&& field) {
+    field("velocity", motor.velocity, kAngularVelocityRange);
+    field("torque", motor.torque, kMotorTorqueRange);
+  }
+};
 
 /// The two anchors coincide: 3 rows.
 struct BallJoint : JointBase {
@@ -40,12 +72,16 @@ struct HingeJoint : JointBase {
   Vec3 axis_a = Vec3::UnitZ();      // unit, in the frame of a [-]
   Vec3 axis_b = Vec3::UnitZ();      // unit, in the frame of b, or in the world for kWorld [-]
   double angular_compliance = 0.0;  // C of the two angular rows [rad/(N m)], >= 0
+  std::optional<AngleLimit> limit;
+  std::optional<AngularMotor> motor;
 
   template <class J, class Field>
   static void own_fields(J& joint, Field&& field) {
     field("axis_a", joint.axis_a);
     field("axis_b", joint.axis_b);
     field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
+    field("limit", joint.limit);
+    field("motor", joint.motor);
   }
 };
 

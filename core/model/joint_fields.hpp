@@ -75,4 +75,16 @@ inline std::optional<double> angular_compliance_of(const Joint& joint) {
       joint);
 }
 
+/// The limit of a joint's angle, or null.
+inline const AngleLimit* limit_of(const Joint& joint) {
+  const auto* hinge = std::get_if<HingeJoint>(&joint);
+  return hinge != nullptr && hinge->limit ? &*hinge->limit : nullptr;
+}
+
+/// The motor of a joint, or null.
+inline const AngularMotor* motor_of(const Joint& joint) {
+  const auto* hinge = std::get_if<HingeJoint>(&joint);
+  return hinge != nullptr && hinge->motor ? &*hinge->motor : nullptr;
+}
+
 }  // namespace substep

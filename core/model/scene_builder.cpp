@@ -90,6 +90,24 @@ int SceneBuilder::add_hinge(int a, int b, const Vec3& point, const Vec3& axis) {
   return add(Joint(std::move(joint)));
 }
 
+HingeJoint* SceneBuilder::hinge_at(int index) {
+  return std::get_if<HingeJoint>(&scene_.joints[substep::index(index)]);
+}
+
+void SceneBuilder::limit_hinge(int hinge, double lower, double upper, double restitution) {
+  HingeJoint* joint = hinge_at(hinge);
+  if (joint == nullptr) return;
+  Vec3 v1;
+  Vec3 v2;
+  across(pose_of(scene_, joint->a).second * joint->axis_a, v1, v2);
+  joint->limit = AngleLimit{lower, upper, restitution, axis_in(scene_, joint->a, v1),
+                            axis_in(scene_, joint->b, v1)};
+}
+
+void SceneBuilder::drive_hinge(int hinge, double velocity, double torque) {
+  if (HingeJoint* joint = hinge_at(hinge)) joint->motor = AngularMotor{velocity, torque};
+}
+
 int SceneBuilder::add_prismatic(int a, int b, const Vec3& point, const Vec3& axis) {
   PrismaticJoint joint;
   place(scene_, a, b, point, joint);

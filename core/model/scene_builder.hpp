@@ -28,6 +28,11 @@ class SceneBuilder {
   /// A hinge: like a ball joint, but a rotates relative to b only about an axis. @param axis world,
   /// of any length [-]
   int add_hinge(int a, int b, const Vec3& point, const Vec3& axis);
+  /// Bounds the angle of a hinge, 0 in the current poses. @param hinge its index  @param lower,
+  /// upper [rad]  @param restitution [-]
+  void limit_hinge(int hinge, double lower, double upper, double restitution = 0.0);
+  /// Turns a hinge. @param velocity of a relative to b [rad/s]  @param torque the largest [N m]
+  void drive_hinge(int hinge, double velocity, double torque);
   /// A point of a slides along an axis of b, without relative rotation.
   int add_prismatic(int a, int b, const Vec3& point, const Vec3& axis);
   /// A weld at a point of the world: a keeps its position and orientation relative to b.
@@ -48,6 +53,8 @@ class SceneBuilder {
  private:
   int add(Body body);
   int add(Joint joint);
+  /// Null if it is no hinge.
+  HingeJoint* hinge_at(int index);
 
   Scene scene_;
 };

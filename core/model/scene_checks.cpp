@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/math/angle.hpp"
 #include "core/model/joint_fields.hpp"
 #include "core/model/number_text.hpp"
 
@@ -46,6 +47,22 @@ std::optional<std::string> parallel_fault(const Vec3& u, const Vec3& v) {
          number_text(kMaxAxisAngleSine);
 }
 
+void check_limit_start(const Joint& joint, const Quat& q_a, const Quat& q_b, std::size_t i,
+                       Problems& problems) {
+  constexpr double kMostBeyond = 0.1;  // [rad]
+  const AngleLimit* limit = limit_of(joint);
+  if (limit == nullptr) return;
+  const Vec3 axis = q_a * axes_of(joint)->a;
+  const double angle = angle_about(axis, q_b * limit->across_b, q_a * limit->across_a);
+  const double middle = 0.5 * (limit->lower + limit->upper);
+  const double from_middle = wrapped(angle - middle);
+  if (std::abs(from_middle) <= 0.5 * (limit->upper - limit->lower) + kMostBeyond) return;
+  problems.push_back({pointer_to(pointer_to("/joints", i), "limit"),
+                      "the angle starts at " + number_text(middle + from_middle) +
+                          " (rad), outside " + number_text(limit->lower) + " to " +
+                          number_text(limit->upper)});
+}
+
 /// 0 for a body that does not move [1/kg].
 double inverse_mass(const Scene& scene, int body) {
   return is_fixed(scene, body) ? 0.0 : 1.0 / scene.bodies[index(body)].mass;
@@ -79,6 +96,7 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
       const auto fault = parallel_fault(a.q * pair->a, b.q * pair->b);
       if (fault) problems.push_back({pointer_to("/joints", i), what + *fault});
     };
+    check_limit_start(scene.joints[i], a.q, b.q, i, problems);
     check_parallel(axes_of(scene.joints[i]), "the axes ");
     check_parallel(across_of(scene.joints[i]), "the directions across the axes ");
   }
@@ -126,6 +144,21 @@ void check_effects(const Scene& scene, Problems& problems) {
   if (!listed.joints && !scene.joints.empty()) {
     missing("joints", "/joints has " + std::to_string(scene.joints.size()));
   }
+  bool rebounds = false;
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    const auto given = [&](const char* part) {
+      return pointer_to(pointer_to("/joints", i), part) + " is given";
+    };
+    const AngleLimit* limit = limit_of(scene.joints[i]);
+    rebounds = rebounds || (limit != nullptr && limit->restitution > 0.0);
+    if (limit != nullptr && !listed.limits) return missing("limits", given("limit"));
+    if (motor_of(scene.joints[i]) != nullptr && !listed.motors) {
+      return missing("motors", given("motor"));
+    }
+  }
+  if (rebounds && !listed.restitution) {
+    missing("restitution", "a limit has a restitution above 0");
+  }
   for (std::size_t i = 0; i < scene.bodies.size() && !listed.external; ++i) {
     const Body& body = scene.bodies[i];
     if (body.force == Vec3::Zero() && body.torque == Vec3::Zero()) continue;
@@ -136,7 +169,7 @@ void check_effects(const Scene& scene, Problems& problems) {
   // Optional rows of contacts, and the body data that needs them.
   const auto needs_contact = [&](bool Effects::*effect, const char* name, double Body::*coefficient,
                                  bool of_static) {
-    if (!listed.contact && listed.*effect) {
+    if (!listed.contact && listed.*effect && !(listed.limits && effect == &Effects::restitution)) {
       missing("contact", "\"" + std::string(name) + "\" needs it");
     }
     if (!listed.contact || listed.*effect) return;

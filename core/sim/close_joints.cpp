@@ -44,7 +44,7 @@ double largest_gap(const Block& block, const double* gaps) {
 // matrix of the first solve.
 void Simulator::Impl::close_joints(const Substep& sub, const System& system, Solver& by,
                                    SolveReport& solved) {
-  const auto closes = [](const Block& block) { return !block.is_contact() && !is_grab(block); };
+  const auto closes = [](const Block& block) { return !block.is_bounded() && !is_grab(block); };
   double last = std::numeric_limits<double>::infinity();
   double before = 0.0;  // largest gap at the start of the sub-step
   for (const Block& block : system.blocks) {

@@ -25,7 +25,7 @@ Solver& Simulator::Impl::impact_solver() {
 // impact, 2012).
 bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   if (!restitution || sub.probing) return true;
-  const bool sweeps = sweeps_contacts(sub);
+  const bool sweeps = sweeps_motion(sub);
   std::span<const Vec6> u = sub.u_before;
   if (sweeps) {
     // A tumbling body has its momentum, and the energy that a rebound conserves, at the poses of
@@ -93,7 +93,7 @@ ContactWork Simulator::Impl::work_of_contacts(const Substep& sub, std::span<cons
   ContactWork work;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Block& block = rows[i];
-    if (!block.is_contact()) continue;  // joints that hold do no work
+    if (!block.is_unilateral()) continue;  // joints that hold do no work
     double before[kMaxRows];
     double after[kMaxRows];
     double gained[kMaxRows] = {};

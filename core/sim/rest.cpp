@@ -46,12 +46,16 @@ void Simulator::Impl::keep_forces_at_rest() {
     return !scene->bodies[index(body)].is_static && !schedule.moves(body);
   };
   for (const StoredForce& force : state.forces) {
-    if (force.id < scene->joints.size()) {
-      const auto joint = static_cast<std::size_t>(force.id);
-      if (sleeps(base(scene->joints[joint]).a)) forces.push_back(force);
-    } else if (is_contact_id(force.id)) {
+    if (is_contact_id(force.id)) {
       const auto [a, b] = bodies_of_contact(force.id);
       if (sleeps(a) || sleeps(b)) forces.push_back(force);
+      continue;
+    }
+    const bool of_coordinate = CoordinateStage::is_id(force.id);
+    const auto joint = of_coordinate ? index(CoordinateStage::joint_of(force.id))
+                                     : static_cast<std::size_t>(force.id);
+    if (joint < scene->joints.size() && sleeps(base(scene->joints[joint]).a)) {
+      forces.push_back(force);
     }
   }
 }

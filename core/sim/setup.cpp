@@ -19,6 +19,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     joints = std::make_unique<JointStage>(*scene);
     mark_springs(*scene, state, *joints);
   }
+  if (effects.limits || effects.motors) coordinates = std::make_unique<CoordinateStage>(*scene);
   if (effects.contact) contact = std::make_unique<ContactStage>(*scene);
   if (effects.friction) friction = std::make_unique<FrictionStage>(*scene);
   if (effects.restitution) restitution = std::make_unique<RestitutionStage>(*scene);
@@ -32,7 +33,9 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
 
   // Reserves memory for contacts and a grab: a sub-step must not allocate when bodies touch.
   const std::size_t n = scene->bodies.size();
-  const std::size_t n_blocks = (joints ? scene->joints.size() : 0) + (contact ? 4 * n + 16 : 0) + 1;
+  const std::size_t n_blocks = (joints ? scene->joints.size() : 0) +
+                               (coordinates ? coordinates->size() : 0) +
+                               (contact ? 4 * n + 16 : 0) + 1;
   blocks.reserve(n_blocks);
   solver->reserve(n, n_blocks);
   state.forces.reserve(n_blocks);
@@ -135,6 +138,12 @@ ConstraintForces Simulator::constraint_forces() const {
       Vec3 force = lambda[0] * block.n;
       if (block.rows == 3) force += lambda[1] * block.t1 + lambda[2] * block.t2;
       out.contacts.push_back({block.body_a, block.body_b, block.r_a, block.n, force, block.phi[0]});
+    } else if (block.is_bounded()) {  // a limit or a motor, after its joint
+      JointForce& force = out.joints[index(CoordinateStage::joint_of(block.id))];
+      with_joint_rows(block.kind, [&](auto rows) {
+        force.force += rows.force(block, lambda);
+        force.torque += rows.torque(block, lambda);
+      });
     } else if (block.id < impl_->scene->joints.size()) {  // not the grab
       out.joints.resize(impl_->scene->joints.size());
       JointForce& force = out.joints[static_cast<std::size_t>(block.id)];

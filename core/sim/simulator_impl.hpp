@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/constraints/contact_stage.hpp"
+#include "core/constraints/coordinate_stage.hpp"
 #include "core/constraints/joint_stage.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "core/constraints/swept_contacts.hpp"
@@ -92,6 +93,7 @@ struct Simulator::Impl {
   bool solve(Substep& sub, FrameReport& report);
   void seed(const Substep& sub);
   void set_bias(Substep& sub, FrameReport& report);
+  void drive_motors(const Substep& sub) const;  // their speeds and bounds
   bool solve_rows(Substep& sub, FrameReport& report);
   void set_softness(const Substep& sub, std::span<Block> rows) const;
   /// Repeats a solve until joints hold at the end. @param system its u* is u_star, by: its solver
@@ -121,8 +123,9 @@ struct Simulator::Impl {
   bool may_shorten(const Substep& sub) const;
   /// True if a contact that closes at this speed is an impact. @param approach [m/s]
   bool is_fast(const Substep& sub, const Block& contact, double approach) const;
-  double speed_by_forces(const Substep& sub, const Block& contact) const;  // [m/s]
+  double speed_in_substep(const Substep& sub, const Block& contact) const;  // [m/s or rad/s]
   bool arrives(const Substep& sub, const Block& contact) const;  // fast, before the forces
+  double width_of(const Block& contact) const;                   // [m or rad]
   double touching(const Block& contact) const;                   // the gap of bodies that touch [m]
   double closing_time(const Substep& sub, const Block& contact) const;
   void await_impacts(const Substep& sub, bool shortens);
@@ -137,7 +140,9 @@ struct Simulator::Impl {
   // swept.cpp
   /// Softness of contacts that are not springs, of the mobility of their rows.
   static constexpr double kRigidContact = 1e-5;
-  bool sweeps_contacts(const Substep& sub) const;
+  bool sweeps_motion(const Substep& sub) const;  // contacts and limits are found along the motion
+  /// True if rows may open and close.
+  bool unilateral() const { return contact || (coordinates && coordinates->has_limits()); }
   bool solve_swept(Substep& sub, bool shortens, FrameReport& report);
   bool solve_softly(Substep& sub, FrameReport& report);
   bool solve_afresh(Substep& sub, FrameReport& report);
@@ -222,6 +227,7 @@ struct Simulator::Impl {
 
   // Stages: null if the scene does not use the effect.
   std::unique_ptr<JointStage> joints;
+  std::unique_ptr<CoordinateStage> coordinates;
   std::unique_ptr<ContactStage> contact;
   std::unique_ptr<FrictionStage> friction;
   std::unique_ptr<RestitutionStage> restitution;

@@ -28,13 +28,15 @@ void reset_row(Block& block) {
   std::fill(std::begin(block.bias), std::end(block.bias), 0.0);
   std::fill(std::begin(block.impulse), std::end(block.impulse), 0.0);
   std::fill(std::begin(block.given), std::end(block.given), 0.0);
-  if (block.is_contact()) {
+  if (block.is_motor()) block.lo = block.hi = 0.0;
+  if (block.is_unilateral()) {
     std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
   }
 }
 
-// Springs keep their speed, a grab exerts no impulse.
+// Springs keep their speed; a grab and a motor exert no impulse.
 void set_joint(std::span<const InverseMass> inverse_mass, std::span<const Vec6> u, Block& joint) {
+  if (joint.is_motor()) return;
   double speed[kMaxRows];
   row_speeds(joint, u, speed);
   for (int row = 0; row < joint.rows; ++row) {
@@ -85,8 +87,10 @@ bool Simulator::Impl::solve_until_impact(Substep& sub, FrameReport& report) {
   }
 }
 
-/// Speed that the forces of a whole sub-step give to the bodies of a contact [m/s].
-double Simulator::Impl::speed_by_forces(const Substep& sub, const Block& block) const {
+/// Speed that the forces of a whole sub-step give to the bodies of a contact [m/s] or a limit
+/// [rad/s].
+double Simulator::Impl::speed_in_substep(const Substep& sub, const Block& block) const {
+  if (!block.is_contact()) return speed_by_forces(sub, block);
   return speeds_of(block, gain) * sub.planned_dt / impulse_time_of(sub, block);
 }
 
@@ -95,9 +99,9 @@ double Simulator::Impl::speed_by_forces(const Substep& sub, const Block& block) 
 bool Simulator::Impl::is_fast(const Substep& sub, const Block& block, double approach) const {
   constexpr double kSlow = 0.1;
   constexpr double kLeft = 10.0 * kRigidContact;
-  return approach >
-         std::max({kSlow * speed_by_forces(sub, block), kSlow * scene->contact.restitution_speed,
-                   kLeft * speeds_of(block, sub.u_before)});
+  return approach > std::max({kSlow * speed_in_substep(sub, block),
+                              block.is_contact() ? kSlow * scene->contact.restitution_speed : 0.0,
+                              kLeft * speeds_of(block, sub.u_before)});
 }
 
 // What rests has no approach before the forces.
@@ -105,10 +109,15 @@ bool Simulator::Impl::arrives(const Substep& sub, const Block& block) const {
   return !block.soft && is_fast(sub, block, -normal_speed(block, sub.u_before));
 }
 
-/// The gap below which bodies touch [m].
+/// The half width of the narrower shape [m]; its measure for a limit [rad].
+double Simulator::Impl::width_of(const Block& block) const {
+  return block.is_contact() ? contact->detector().half_width(block.body_a, block.body_b)
+                            : CoordinateStage::kWidth;
+}
+
+/// The gap below which bodies touch [m], or a limit is closed [rad].
 double Simulator::Impl::touching(const Block& block) const {
-  return SweptContacts::kAllowedOverlap *
-         contact->detector().half_width(block.body_a, block.body_b);
+  return SweptContacts::kAllowedOverlap * width_of(block);
 }
 
 /// When a contact closes, from the start of the sub-step [s]: phi + t (J w - later forces) = 0.
@@ -131,7 +140,7 @@ double Simulator::Impl::closing_time(const Substep& sub, const Block& block) con
 // Rows that may close fast are open until it is known when.
 void Simulator::Impl::await_impacts(const Substep& sub, bool shortens) {
   for (Block& block : sub.rows) {
-    if (!block.is_contact()) continue;
+    if (!block.is_unilateral()) continue;
     block.awaits = shortens && block.phi[0] > touching(block) && arrives(sub, block);
   }
 }
@@ -142,7 +151,7 @@ SweptContacts::Found Simulator::Impl::settle_waiting(const Substep& sub, std::si
                                                      SweptContacts::Found found) {
   const double late = (1.0 - RestitutionStage::kSimultaneous) * sub.dt;
   const auto is_new = [&](std::size_t i, const Block& block) {
-    return block.is_contact() && (i >= solved || block.awaits);
+    return block.is_unilateral() && (i >= solved || block.awaits);
   };
   double first = kUnbounded;
   double tolerance = 0.0;  // of the time, where the sub-step ends at it already [s]
@@ -178,7 +187,7 @@ void Simulator::Impl::set_reactions(const Substep& sub, std::span<const Vec6> u,
                                     std::span<Block> rows) {
   for (Block& block : rows) {
     reset_row(block);
-    if (!block.is_contact()) {
+    if (!block.is_unilateral()) {
       set_joint(sub.inverse_mass, u, block);
       continue;
     }
@@ -195,7 +204,7 @@ bool Simulator::Impl::set_hits(const Substep& sub, std::span<const Vec6> u, doub
   bool any = false;
   for (Block& block : rows) {
     reset_row(block);
-    if (!block.is_contact()) {
+    if (!block.is_unilateral()) {
       set_joint(sub.inverse_mass, u, block);
       continue;
     }
@@ -207,8 +216,8 @@ bool Simulator::Impl::set_hits(const Substep& sub, std::span<const Vec6> u, doub
     } else if (fast) {
       any = true;
       // What returns within the sub-step rests.
-      const bool rebounds = approach >= scene->contact.restitution_speed &&
-                            e * approach > speed_by_forces(sub, block);
+      const bool rebounds = (!block.is_contact() || approach >= scene->contact.restitution_speed) &&
+                            e * approach > speed_in_substep(sub, block);
       block.bias[0] = rebounds ? -share * e * approach : 0.0;
     } else if (e > 0.0) {
       block.bias[0] = kStaysOpen;
@@ -226,7 +235,7 @@ bool Simulator::Impl::strike(Substep& sub, FrameReport& report) {
     u_meeting[i] += (1.0 - 0.5 * sub.dt / sub.impulse_time[i]) * gain[i];
   }
   const auto struck = [&](const Block& block) {
-    return block.is_contact() && block.phi[0] <= touching(block) && arrives(sub, block);
+    return block.is_unilateral() && block.phi[0] <= touching(block) && arrives(sub, block);
   };
   if (std::none_of(sub.rows.begin(), sub.rows.end(), struck)) return true;
   impact_rows.clear();
@@ -296,7 +305,7 @@ void Simulator::Impl::start_from(Substep& sub, std::span<const Vec6> u_minus,
 // Contacts that touch after a strike rest, or separate: their forces contain no impact.
 void Simulator::Impl::close_struck(const Substep& sub) const {
   for (Block& block : sub.rows) {
-    if (!block.is_contact() || block.soft) continue;
+    if (!block.is_unilateral() || block.soft) continue;
     if (block.phi[0] <= kResting * touching(block)) block.was_closed = true;
   }
 }

@@ -39,6 +39,9 @@ bool Simulator::Impl::append_rows(Substep& sub, FrameReport& report) {
   blocks.keep(first_block);
   if (joints) {
     joints->append(*sub.part, state, sub.R_WB, blocks);
+    if (coordinates) {
+      coordinates->append(*sub.part, state, sub.R_WB, sub.dt, sweeps_motion(sub), blocks);
+    }
     clock.lap(report.times.joints);
   }
   if (contact) {
@@ -104,18 +107,19 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
 bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   sub.shift = sub.gain = {};
   begins_with_impact = false;
-  if (!(sweeps_contacts(sub) ? solve_until_impact(sub, report) : solve_rows(sub, report))) {
+  if (!(sweeps_motion(sub) ? solve_until_impact(sub, report) : solve_rows(sub, report))) {
     return false;
   }
   if (sub.outputs_needed || sub.probing || schedule.clock().needs_stiffness() ||
       starts_from_last_forces(sub.settings) || springs_are_stored(sub)) {
     report.work.flops += solver->find_impulses(sub.rows);
   }
-  sub.smooth = sub.struck.empty() &&
-               (!contact || std::none_of(sub.rows.begin(), sub.rows.end(), [&](const Block& block) {
-                 return block.is_contact() &&
-                        (sub.integrator->breaks_motion(block) || ends_impact(sub, block));
-               }));
+  sub.smooth =
+      sub.struck.empty() &&
+      (!unilateral() || std::none_of(sub.rows.begin(), sub.rows.end(), [&](const Block& block) {
+        return block.is_unilateral() &&
+               (sub.integrator->breaks_motion(block) || ends_impact(sub, block));
+      }));
   if (!sub.probing) sub.integrator->settle(sub, state);
   clock.lap(report.times.solve);
   return true;
@@ -128,13 +132,13 @@ void Simulator::Impl::set_softness(const Substep& sub, std::span<Block> rows) co
       block.softness[row] = block.C[row] * per_dt2 + scene->regularisation;
     }
   }
-  if (sweeps_contacts(sub)) stiffen_contacts(sub, contact_softness, rows);
+  if (sweeps_motion(sub)) stiffen_contacts(sub, contact_softness, rows);
 }
 
 bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
   set_softness(sub, sub.rows);
   if (!propagate_impacts(sub, report)) return false;
-  if (sweeps_contacts(sub) && !sub.struck.empty()) copy(state.u, u_rebounding);
+  if (sweeps_motion(sub) && !sub.struck.empty()) copy(state.u, u_rebounding);
   if (forces_are_stored(sub)) seed(sub);
   if (begins_with_impact) close_struck(sub);
   set_bias(sub, report);
@@ -171,13 +175,28 @@ void Simulator::Impl::seed(const Substep& sub) {
 }
 
 void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
-  if (sub.probing) return set_probe_bias(sub.rows, sub.dt);
+  if (sub.probing) {
+    set_probe_bias(sub.rows, sub.dt);
+    return drive_motors(sub);
+  }
   set_drift_bias(sub.rows, drift_law(sub.settings), sub.settings.drift_tau, sub.dt, sub.planned_dt);
-  if (sweeps_contacts(sub)) set_swept_bias(sub.rows, sub.gain, sub.shift, sub.dt, sub.planned_dt);
+  if (sweeps_motion(sub)) set_swept_bias(sub.rows, sub.gain, sub.shift, sub.dt, sub.planned_dt);
   set_springs(sub, state);
   if (sub.settings.drift_order == 2) add_curvature_bias(sub.rows, sub.u_start, sub.dt);
   if (restitution && separates) restitution->apply(sub, sub.u_before, sub.rows);
   report.work.flops += sub.integrator->aim(sub, state);
+  drive_motors(sub);
+}
+
+void Simulator::Impl::drive_motors(const Substep& sub) const {
+  if (!scene->effects.motors) return;
+  for (Block& block : sub.rows) {
+    if (!block.is_motor()) continue;
+    const AngularMotor& motor = coordinates->motor(block);
+    block.bias[0] = -motor.velocity;
+    block.hi = motor.torque * impulse_time_of(sub, block);
+    block.lo = -block.hi;
+  }
 }
 
 void Simulator::Impl::count_work(const Substep& sub, const SolveReport& solved,
@@ -239,7 +258,7 @@ bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report
   const bool full = entry_of(settings.mode).full_stiffness;
   const bool known = !state.k.empty() && (!full || !state.K_resisting.empty());
   // The forces of an impact do not last, nor those that stop the rest of it in a short sub-step.
-  if (sweeps_contacts(sub) && (begins_with_impact || !sub.smooth) && known) {
+  if (sweeps_motion(sub) && (begins_with_impact || !sub.smooth) && known) {
     report.stages.stiffness = true;  // the last one is kept
     bound = StiffnessStage::bound(*scene, sub.part->bodies, state.k);
     return true;

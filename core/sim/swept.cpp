@@ -29,8 +29,8 @@ constexpr double kPartRate = 0.2;        // of the overlap in a sub-step
 
 }  // namespace
 
-bool Simulator::Impl::sweeps_contacts(const Substep& sub) const {
-  return contact && sub.settings.detection == Detection::kContinuous && !sub.probing;
+bool Simulator::Impl::sweeps_motion(const Substep& sub) const {
+  return unilateral() && sub.settings.detection == Detection::kContinuous && !sub.probing;
 }
 
 void Simulator::Impl::predict_motions(const Substep& sub) {
@@ -46,9 +46,10 @@ void Simulator::Impl::predict_motions(const Substep& sub) {
 SweptContacts::Found Simulator::Impl::sweep(Substep& sub, double until) {
   predict_motions(sub);
   const std::size_t known = blocks.size();
-  const SweptContacts::Found found =
-      swept->append({*scene, *sub.part, state, sub.R_WB, w, sub.dt, until}, contact->detector(),
-                    first_block, blocks);
+  const SweptContacts::Sweep motion{*scene, *sub.part, state, sub.R_WB, w, sub.dt, until};
+  SweptContacts::Found found = SweptContacts::Found::kNothing;
+  if (contact) found = swept->append(motion, contact->detector(), first_block, blocks);
+  if (coordinates) found = std::max(found, coordinates->sweep(motion, first_block, blocks));
   if (friction) friction->append(*scene, sub.R_WB, blocks.from(known));
   set_softness(sub, blocks.from(known));
   sub.rows = blocks.from(first_block);
@@ -104,7 +105,9 @@ bool Simulator::Impl::solve_swept(Substep& sub, bool shortens, FrameReport& repo
     if (found_shift) report.parting += lift_by_shift(sub) - before;
     if (report.status != StepStatus::kOk) return false;
     if (!found_shift) {  // the bodies stop where they meet
-      const double rest = 1.0 - swept->earliest() / sub.dt;
+      const double met = std::min(contact ? swept->earliest() : sub.dt,
+                                  coordinates ? coordinates->earliest() : sub.dt);
+      const double rest = 1.0 - met / sub.dt;
       for (const int body : sub.part->moving) shift[index(body)] -= rest * w[index(body)];
       break;
     }
@@ -121,8 +124,8 @@ void Simulator::Impl::add_reactions(const Substep& sub, std::size_t solved) {
   if (!sub.struck.empty()) return;
   const std::span<const Block> rows = sub.rows.first(solved - first_block);
   const bool hits = std::any_of(rows.begin(), rows.end(), [&](const Block& block) {
-    return block.is_contact() && block.impulse[0] > 0.0 &&
-           block.phi[0] > sub.dt * speeds_of(block, gain);
+    return block.is_unilateral() && block.impulse[0] > 0.0 &&
+           block.phi[0] > sub.dt * speed_by_forces(sub, block);
   });
   if (hits) return;
   for (const int body : sub.part->moving) {
@@ -175,20 +178,20 @@ double Simulator::Impl::lift_by_shift(const Substep& sub) const {
 }
 
 bool Simulator::Impl::too_many_swept() const {
-  const std::size_t others = joints ? scene->joints.size() + 1 : 1;  // and a grab
+  if (!contact) return false;
+  const std::size_t others = (joints ? scene->joints.size() + 1 : 1) +  // and a grab
+                             (coordinates ? coordinates->size() : 0);
   const auto most = static_cast<double>(others) + budget.contacts;
   return contact->detector().too_many() || static_cast<double>(blocks.size() - first_block) > most;
 }
 
 bool Simulator::Impl::parts(const Block& block) const {
-  const auto width = [&] { return contact->detector().half_width(block.body_a, block.body_b); };
-  return block.is_contact() && !block.soft &&
-         block.phi[0] < -SweptContacts::kAllowedOverlap * width();
+  return block.is_unilateral() && !block.soft && block.phi[0] < -touching(block);
 }
 
 bool Simulator::Impl::ends_impact(const Substep& sub, const Block& block) const {
-  if (!sweeps_contacts(sub) || !(block.impulse[0] > 0.0)) return false;
-  return -normal_speed(block, sub.u_before) > speeds_of(block, sub.gain);
+  if (!sweeps_motion(sub) || !(block.impulse[0] > 0.0)) return false;
+  return -normal_speed(block, sub.u_before) > speed_by_forces(sub, block);
 }
 
 // The smallest change of the shift that keeps shapes apart at the end, and joints. Returns false if
@@ -201,16 +204,16 @@ bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
     block = row;
     for (int i = 0; i < kMaxRows; ++i) {
       block.bias[i] = block.impulse[i] = block.given[i] = 0.0;
-      if (!block.is_contact()) block.softness[i] = scene->regularisation;
+      if (!block.is_bounded()) block.softness[i] = scene->regularisation;
     }
-    if (!block.is_contact()) continue;
+    if (block.is_motor()) block.lo = block.hi = 0.0;
+    if (!block.is_unilateral()) continue;
     block.rows = 1;  // without friction
     std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
     const double speed = normal_speed(block, w) - normal_speed(block, shift);
     block.bias[0] = speed + (std::max(row.phi[0], 0.0) + row.curved) / sub.dt;
     if (!parts(row)) continue;
-    const double width = contact->detector().half_width(row.body_a, row.body_b);
-    block.bias[0] -= std::min(-kPartRate * row.phi[0] / sub.dt, kFastestParting * width);
+    block.bias[0] -= std::min(-kPartRate * row.phi[0] / sub.dt, kFastestParting * width_of(row));
   }
   Solver& by = impact_solver();
   System system{parting.all(), sub.inverse_mass,     shift, {}, sub.dt,

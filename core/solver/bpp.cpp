@@ -18,9 +18,10 @@ bool any_tight(const Block& block) {
                      [](std::int8_t t) { return t != 0; });
 }
 
-/// True if the contact has a valid set from an earlier sub-step; it may come from a file.
+/// True if the block has a valid set from an earlier sub-step; it may come from a file.
 bool has_known_set(const Block& block) {
-  if (block.active_set[0] != 0 && block.active_set[0] != -1)
+  const std::int8_t set = block.active_set[0];
+  if (set != 0 && set != -1 && !(set == 1 && block.is_motor()))
     return false;  // a normal has no upper bound
   return std::all_of(block.active_set + 1, block.active_set + block.rows,
                      [](std::int8_t t) { return -1 <= t && t <= 1; });
@@ -64,7 +65,7 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
 
 void Bpp::find_active_set(const System& system, const Settings& settings, SolveReport& report) {
   report.status = SolveStatus::kSolved;
-  if (!any_contact_) {
+  if (!any_bounded_) {
     ldlt_.solve(system);
     over_limits(system, report);
     return;
@@ -114,9 +115,9 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
   }
   SolveReport report;
   has_impulses_ = false;
-  any_contact_ = std::any_of(system.blocks.begin(), system.blocks.end(),
-                             [](const Block& block) { return block.is_contact(); });
-  if (any_contact_) start_active_set(system);
+  any_bounded_ = std::any_of(system.blocks.begin(), system.blocks.end(),
+                             [](const Block& block) { return block.is_bounded(); });
+  if (any_bounded_) start_active_set(system);
   const int refinements = refinements_of(system, settings);
   if (refinements > 0) centre(system);
   find_active_set(system, settings, report);
@@ -126,14 +127,14 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
     find_active_set(system, settings, report);
   }
   if (report.status == SolveStatus::kOverLimits) return report;
-  if (!any_contact_ && ldlt_.held()) ldlt_.refine(system);
+  if (!any_bounded_ && ldlt_.held()) ldlt_.refine(system);
   report.factorisations = ldlt_.factorisations();
   report.flops += ldlt_.flops();
   return report;
 }
 
 SolveReport Bpp::find_velocities_again(const System& system, const Settings& settings) {
-  if (any_contact_ || settings.refinements > 0) return find_again(system, settings);
+  if (any_bounded_ || settings.refinements > 0) return find_again(system, settings);
   SolveReport report;
   const std::int64_t before = ldlt_.flops();
   if (ldlt_.held()) {
@@ -191,13 +192,13 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
   find_impulses(system.blocks);
   has_impulses_ = true;
   for (Block& block : system.blocks) {
-    if (!block.is_contact()) continue;
+    if (!block.is_bounded()) continue;
     if (block.rows == 3 && block.sliding > 0.0) {  // it has a cone of its own
       block.softness[2] = block.softness[1];
       block.bias[2] -= std::exchange(block.across, 0.0);
       block.sliding = 0.0;
     }
-    block.impulse[0] = std::max(0.0, block.impulse[0]);
+    block.impulse[0] = std::min(block.hi, std::max(block.lo, block.impulse[0]));
     const double bound = block.mu * block.impulse[0];
     for (int row = 1; row < block.rows; ++row) {
       block.impulse[row] = std::min(bound, std::max(-bound, block.impulse[row]));
@@ -216,8 +217,10 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
     report.work_needed = swept.work_needed;
   }
   for (Block& block : system.blocks) {
-    if (!block.is_contact()) continue;
-    block.active_set[0] = block.impulse[0] > 0.0 ? std::int8_t{0} : std::int8_t{-1};
+    if (!block.is_bounded()) continue;
+    block.active_set[0] = !(block.impulse[0] > block.lo)   ? std::int8_t{-1}
+                          : !(block.impulse[0] < block.hi) ? std::int8_t{1}
+                                                           : std::int8_t{0};
     for (int row = 1; row < block.rows; ++row) {
       const double bound = friction_bound(block, row, block.impulse[0]);
       block.active_set[row] = block.impulse[row] >= bound    ? std::int8_t{1}
@@ -232,8 +235,12 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
 void Bpp::start_active_set(const System& system) {
   friction_bound_.assign(system.blocks.size(), 0.0);
   for (Block& block : system.blocks) {
-    if (!block.is_contact()) continue;  // always free
-    if (!has_known_set(block)) {
+    if (!block.is_bounded()) continue;  // always free
+    if (block.lo == block.hi) {
+      block.active_set[0] = -1;
+    } else if (block.is_motor() && !has_known_set(block)) {
+      block.active_set[0] = 0;
+    } else if (!has_known_set(block)) {
       double speed[kMaxRows];
       row_speeds(block, system.u, speed);
       const bool reaches = speed[0] + block.bias[0] < 0.0;
@@ -283,10 +290,11 @@ bool Bpp::bounds_settled(const System& system) const {
 void Bpp::solve_active_set(const System& system) {
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
-    if (!block.is_contact()) continue;
+    if (!block.is_bounded()) continue;
     for (int row = 0; row < block.rows; ++row) {
-      if (block.active_set[row] != 0)
-        block.impulse[row] = row == 0 ? 0.0 : block.active_set[row] * friction_bound_[i];
+      const std::int8_t set = block.active_set[row];
+      if (set == 0) continue;
+      block.impulse[row] = row > 0 ? set * friction_bound_[i] : set < 0 ? block.lo : block.hi;
     }
   }
   ldlt_.solve(system);
@@ -304,12 +312,12 @@ int Bpp::pivot(const System& system, bool one_only) {
   Move last;
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
-    if (!block.is_contact()) continue;
+    if (!block.is_bounded()) continue;
     double speed[kMaxRows];
     if (any_tight(block)) row_speeds(block, system.u, speed);
     for (int row = 0; row < block.rows; ++row) {
-      const double hi = row == 0 ? kUnbounded : friction_bound_[i];
-      const double lo = row == 0 ? 0.0 : -hi;
+      const double hi = row == 0 ? block.hi : friction_bound_[i];
+      const double lo = row == 0 ? block.lo : -hi;
       if (hi == lo) continue;
       const double x = block.impulse[row];
       std::int8_t set = block.active_set[row];

@@ -62,7 +62,7 @@ class Bpp final : public Solver {
 
   SaddleLdlt ldlt_;
   Pgs gauss_seidel_;
-  bool any_contact_ = false;
+  bool any_bounded_ = false;
   bool has_impulses_ = false;           // all impulses are known, from Gauss-Seidel or refinement
   std::vector<double> friction_bound_;  // per block [N s]
   struct Centre {

@@ -148,7 +148,7 @@ std::int64_t aim_flops(std::span<const Block> blocks, std::int64_t bodies) {
   constexpr std::int64_t kBody = 2 * 50 + kMotion;  // w, w^
   std::int64_t flops = kBody * bodies;
   for (const Block& block : blocks) {
-    if (block.is_contact()) continue;
+    if (block.is_bounded()) continue;
     flops += (15 + 4) * block.rows + product_flops(block.rows, 6, bodies_of(block));
   }
   return flops;

@@ -67,10 +67,10 @@ void EliminationOrder::read_edges(std::span<const Block> blocks, int world) {
   found_.clear();
   for (const Block& block : blocks) {
     Edge edge{std::min(block.a, block.b), std::max(block.a, block.b),
-              block.is_contact() ? 0 : block.rows};
+              block.is_bounded() ? 0 : block.rows};
     if (edge.low < 0) {
       edge.low = edge.high;
-      if (!block.is_contact()) edge.high = world;
+      if (!block.is_bounded()) edge.high = world;
     }
     // Points of the same contact are adjacent.
     if (edge.rows == 0 && !found_.empty() && found_.back() == edge) continue;

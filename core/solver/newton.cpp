@@ -137,7 +137,7 @@ void Newton::relinearise(const System& system, Forces forces) {
     Block& block = rows_[i];
     if (forces == Forces::kNumerov) {
       const PoseWeights w = numerov_.weights_of(system, start);
-      if (!start.is_contact()) add_gained(system, i, w);
+      if (!start.is_bounded()) add_gained(system, i, w);
       average(start, back_[i], w, block);
     } else {
       move_rows(start, motions_.of(start.a), motions_.of(start.b), block);

@@ -81,12 +81,12 @@ PoseWeights NumerovCourses::weights_of(const System& system, const Block& block)
 // A newly closed contact is an impact; its force is not extrapolated.
 void NumerovCourses::add_forces(const System& system, const Block& here, const Block& behind,
                                 const Block& ahead) {
-  if (here.is_contact() && !here.was_closed) return;
+  if (here.is_unilateral() && !here.was_closed) return;
   const double time = longest_of(here, system.force_time);
   if (time == 0.0) return;
   const PoseWeights w = weights_of(system, here);
   const double dt = system.dt;
-  const bool knows_rates = !here.is_contact() && here.seeded;
+  const bool knows_rates = !here.is_bounded() && here.seeded;
   double at_start[kMaxRows];
   double at_end[kMaxRows];
   double before[kMaxRows];

@@ -24,8 +24,10 @@ struct Head {
   int a;
   int b;
   double mu;
+  double lo;  // of row 0
+  double hi;
   std::int8_t rows;
-  bool contact;
+  bool bounded;
   bool has_point_rows;
   bool cone;
 };
@@ -183,8 +185,10 @@ void pack_block(const Block& block, std::span<const InverseMass> inverse_mass, b
   visit.head = {block.a,
                 block.b,
                 block.mu,
+                block.lo,
+                block.hi,
                 static_cast<std::int8_t>(block.rows),
-                block.is_contact(),
+                block.is_bounded(),
                 block.has_point_rows,
                 cone && block.is_contact() && block.rows == 3};
   for (int i = 0; i < V::Rows; ++i) {
@@ -249,9 +253,10 @@ void update(V& block, std::span<Vec6> u) {
   for (int i = 0; i < Rows; ++i) {
     const double x = block.impulse[i];
     double next = x - w[i] * block.inverse_diagonal[i];
-    if (!V::PointRows && block.head.contact) {  // joints are unbounded
-      const double hi = i == 0 || block.head.cone ? kUnbounded : block.head.mu * block.impulse[0];
-      const double lo = i == 0 ? 0.0 : -hi;
+    if (!V::PointRows && block.head.bounded) {  // joints are unbounded
+      const double across = block.head.cone ? kUnbounded : block.head.mu * block.impulse[0];
+      const double hi = i == 0 ? block.head.hi : across;
+      const double lo = i == 0 ? block.head.lo : -across;
       next = std::min(hi, std::max(lo, next));
     }
     change[i] = next - x;

@@ -115,7 +115,7 @@ void SaddleLdlt::sum_carried(const Node& node, Square6& sum) {
 
 void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
   if (node.gathered) return;
-  node.gathered = !node.has_contacts;
+  node.gathered = !node.has_bounds;
   node.n_rows = 0;
   node.springs = {};
   for (std::size_t k = 0; k < node.n_attached; ++k) {
@@ -168,7 +168,7 @@ void SaddleLdlt::factor_rows(const Node& node, std::span<const Block> blocks, au
   if (softened_ > 0.0) soften(node, blocks, softened_);
   if (!factor_ldlt(f.S, rows, f.S_inverse)) return;
   held_ = true;
-  if (node.has_contacts || softened_ > 0.0) return;
+  if (node.has_bounds || softened_ > 0.0) return;
   form();
   soften(node, blocks, kSoftened);
   factor_ldlt(f.S, rows, f.S_inverse);

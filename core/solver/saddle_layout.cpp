@@ -140,7 +140,7 @@ void SaddleLdlt::read(std::span<const Block> blocks) {
 bool SaddleLdlt::layout_is_the_same(const System& system) {
   const auto key_of = [](const Block& block) {
     return Key{block.a, block.b,
-               4 * block.rows + (block.is_contact() ? 2 : 0) + (block.has_point_rows ? 1 : 0)};
+               4 * block.rows + (block.is_bounded() ? 2 : 0) + (block.has_point_rows ? 1 : 0)};
   };
   const auto has_key = [&](const Block& block, const Key& key) { return key_of(block) == key; };
   if (bodies_ != system.u.size() || !std::equal(system.blocks.begin(), system.blocks.end(),
@@ -343,7 +343,7 @@ void SaddleLdlt::choose_kind(Node& node, const System& system) {
     attached[k].folded = node.kind == NodeKind::kGeneral && attached[k].foldable;
     if (!attached[k].folded) node.most_rows += block.rows;
     node.folds = node.folds || attached[k].folded;
-    node.has_contacts = node.has_contacts || block.is_contact();
+    node.has_bounds = node.has_bounds || block.is_bounded();
     any_folded_ = any_folded_ || attached[k].folded;
   }
 }

@@ -101,7 +101,7 @@ class SaddleLdlt {
     int n_rows = 0;             // free and not folded
     int most_rows = 0;
     bool folds = false;  // some rows are folded
-    bool has_contacts = false;
+    bool has_bounds = false;
     bool gathered = false;  // its rows are gathered and fixed: none can become active
     FactorFlops springs;
     int counted_rows = -1;          // number of rows for which `flops` is valid
@@ -125,7 +125,7 @@ class SaddleLdlt {
   };
   struct Key {  // what the layout depends on
     int a, b;
-    int kind;  // number of rows, contact and pin encoded in one number
+    int kind;  // number of rows, bounded and pin encoded in one number
     [[nodiscard]] int rows() const { return kind / 4; }
     friend bool operator==(const Key&, const Key&) = default;
   };

@@ -200,9 +200,9 @@ double lcp_residual(const System& system) {
     for (int row = 0; row < block.rows; ++row) {
       double lo = -kUnbounded;
       double hi = kUnbounded;
-      if (block.is_contact()) {
-        hi = row == 0 ? kUnbounded : friction_bound(block, row, block.impulse[0]);
-        lo = row == 0 ? 0.0 : -hi;
+      if (block.is_bounded()) {
+        hi = row == 0 ? block.hi : friction_bound(block, row, block.impulse[0]);
+        lo = row == 0 ? block.lo : -hi;
       }
       const double x = block.impulse[row];
       const double w = speed[row] + block.softness[row] * x + block.bias[row];

@@ -80,9 +80,14 @@ void Xpbd::reserve(std::size_t bodies, std::size_t blocks) {
 }
 
 bool Xpbd::stays_open(const System& system, const Block& block) const {
-  return block.impulse[0] == 0.0 &&
-         block.bias[0] + moved_gap(block, motions_.of(block.a), motions_.of(block.b)) / system.dt >=
-             0.0;
+  if (block.impulse[0] != 0.0) return false;
+  double gained[kMaxRows];
+  if (block.is_contact()) {
+    gained[0] = moved_gap(block, motions_.of(block.a), motions_.of(block.b));
+  } else {
+    moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
+  }
+  return block.bias[0] + gained[0] / system.dt >= 0.0;
 }
 
 // The residual has length c and direction d; an impulse p along d changes it along d by
@@ -112,10 +117,11 @@ void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double b
   w += respond(true, du_a);
   w += respond(false, du_b);
   double p = -left / w;
-  if (block.is_contact() && rows.count == 1) {
+  if (block.is_bounded() && rows.count == 1) {
     const double before = block.impulse[rows.first];
-    const double lowest = rows.first == 0 ? 0.0 : -bound;
-    p = std::min(bound, std::max(lowest, before + p)) - before;
+    const double lowest = rows.first == 0 ? block.lo : -bound;
+    const double highest = rows.first == 0 ? block.hi : bound;
+    p = std::min(highest, std::max(lowest, before + p)) - before;
   }
   if (p == 0.0) return;
   if (block.is_contact() && rows.count == 2) {  // cone: the length of the sum is bounded
@@ -149,7 +155,7 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
   double most = 0.0;  // upper bound: every row in every sweep
   for (const Block& block : system.blocks) {
     std::int64_t sweep = block.rows * correction_flops(block, 1);
-    if (!block.is_contact()) {
+    if (!block.is_bounded()) {
       const int angles = block.rows - block.position_rows;
       sweep = correction_flops(block, block.position_rows) +
               (angles > 0 ? correction_flops(block, angles) : 0);
@@ -170,8 +176,8 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
   for (int iteration = 0; iteration < iterations; ++iteration) {
     for (std::size_t i = 0; i < moved_.size(); ++i) {
       const Block& block = system.blocks[i];
-      if (block.is_contact()) {
-        if (stays_open(system, block)) {
+      if (block.is_bounded()) {
+        if (block.is_unilateral() && stays_open(system, block)) {
           ++report.row_updates;
           report.flops += move_flops(block, 1);
         } else {

@@ -71,12 +71,14 @@ void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row
 }
 
 void stiffen_contacts(const Substep& sub, double share, std::span<Block> rows) {
+  constexpr double kLimit = 1e-2;  // of a contact's: a limit has no other points to share with
   for (Block& block : rows) {
-    if (!block.is_contact()) continue;
+    if (!block.is_unilateral()) continue;
     for (int row = 0; row < block.rows; ++row) {
       if (block.C[row] >= sub.scene->contact.soft_compliance) continue;
-      block.softness[row] =
-          share * mobility_of(block, row, sub.inverse_mass) + sub.scene->regularisation;
+      block.softness[row] = (block.is_contact() ? share : kLimit * share) *
+                                mobility_of(block, row, sub.inverse_mass) +
+                            sub.scene->regularisation;
     }
   }
 }
@@ -191,7 +193,7 @@ void set_springs(const Substep& sub, const State& state) {
   for (Block& block : sub.rows) {
     if (block.is_contact()) {
       if (of_contacts) set_contact_spring(sub, state, block);
-    } else if (of_joints && !is_grab(block)) {
+    } else if (of_joints && !block.is_bounded() && !is_grab(block)) {
       set_joint_springs(sub, state, block);
     }
   }

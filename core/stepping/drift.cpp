@@ -5,6 +5,7 @@
 
 #include "core/constraints/contact.hpp"
 #include "core/constraints/joint_rows.hpp"
+#include "core/forces/applied_forces.hpp"
 #include "core/stepping/compliance.hpp"
 
 namespace substep {
@@ -18,9 +19,9 @@ void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt, d
   const double rate = drift_rate(law, tau, dt);
   const double of_joints = rate == full ? 1.0 / planned_dt : rate;
   for (Block& block : blocks) {  // all kMaxRows: a compile-time loop bound
-    const double of_block = block.is_contact() ? rate : of_joints;
+    const double of_block = block.is_unilateral() ? rate : of_joints;
     for (int row = 0; row < kMaxRows; ++row) block.bias[row] = block.phi[row] * of_block;
-    if (!block.is_contact()) continue;
+    if (!block.is_unilateral()) continue;
     if (block.phi[0] > 0.0) {
       block.bias[0] = block.phi[0] * full;
     } else if (rate < full) {
@@ -46,7 +47,7 @@ void curvature_of(const Block& block, std::span<const Vec6> u, double* curvature
 void add_curvature_bias(std::span<Block> blocks, std::span<const Vec6> u, double dt) {
   double curvature[kMaxRows] = {};
   for (Block& block : blocks) {
-    if (block.is_contact()) continue;
+    if (block.is_bounded()) continue;
     curvature_of(block, u, curvature);
     for (int row = 0; row < block.rows; ++row) block.bias[row] += 0.5 * dt * curvature[row];
   }
@@ -74,12 +75,30 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
   }
 }
 
-double speeds_of(const Block& contact, std::span<const Vec6> u) {
+double speeds_of(const Block& row, std::span<const Vec6> u) {
   double speed = 0.0;
-  for (const int body : {contact.a, contact.b}) {
-    if (body >= 0) speed += u[index(body)].head<3>().norm();
+  for (const int body : {row.a, row.b}) {
+    if (body < 0) continue;
+    const Vec6& of_body = u[index(body)];
+    speed += row.is_contact() ? of_body.head<3>().norm() : of_body.tail<3>().norm();
   }
   return speed;
+}
+
+// A force m g turns a body of the radius of gyration k that hangs on an arm d by
+//   g d/(k^2 + d^2) <= g/(2 k).
+// In a linkage whose bodies rotate, angular accelerations are of the size of omega^2.
+double speed_by_forces(const Substep& sub, const Block& row) {
+  if (row.is_contact()) return speeds_of(row, sub.gain);
+  double acceleration = 0.0;
+  for (const int i : {row.a, row.b}) {
+    if (i < 0) continue;
+    const Body& body = sub.scene->bodies[index(i)];
+    const double gyration = std::sqrt(body.inertia.minCoeff() / body.mass);
+    acceleration += acceleration_bound(*sub.scene, body) / (2.0 * gyration) +
+                    sub.u_before[index(i)].tail<3>().squaredNorm();
+  }
+  return sub.planned_dt * acceleration;
 }
 
 void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
@@ -88,7 +107,7 @@ void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
   constexpr double kRigid = 1e-4;  // but the softness not below this part of what it was
   constexpr double kKept = 0.5;  // of the force: less than all, so that forces in a jam are bounded
   for (Block& block : blocks) {
-    if (!block.is_contact() || block.soft) continue;
+    if (!block.is_unilateral() || block.soft) continue;
     if (block.awaits) {
       block.bias[0] = kStaysOpen;
       continue;
@@ -96,7 +115,7 @@ void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
     // The motion is that of u + shift: a body that was struck moves for the rest of the sub-step.
     const double time = block.was_closed ? planned_dt : dt;
     block.bias[0] = std::max(std::max(block.phi[0], 0.0) / time + normal_speed(block, shift), 0.0);
-    if (!block.was_closed) continue;
+    if (!block.was_closed || !block.is_contact()) continue;
     if (!(block.impulse[0] > 0.0)) continue;  // it has just been struck
     const double yields = block.softness[0] * block.impulse[0];
     const double share = std::clamp(kYields * speeds_of(block, gain) / yields, kRigid, 1.0);
@@ -110,7 +129,7 @@ void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
 void set_probe_bias(std::span<Block> blocks, double dt) {
   for (Block& block : blocks) {
     for (int row = 0; row < block.rows; ++row) block.bias[row] = 0.0;
-    if (block.is_contact() && block.phi[0] > 0.0) block.bias[0] = block.phi[0] / dt;
+    if (block.is_unilateral() && block.phi[0] > 0.0) block.bias[0] = block.phi[0] / dt;
   }
 }
 

@@ -8,6 +8,8 @@
 
 namespace substep {
 
+struct Substep;
+
 /// The bias of every row: the speed of its drift correction.
 ///   full  phi/dt
 ///   soft  phi dt/tau^2 for dt < tau, else phi/dt
@@ -37,9 +39,13 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
                            std::span<const InverseMass> inverse_mass, double dt,
                            double regularisation);
 
-/// Sum of the speeds of the centres of mass of a contact's bodies [m/s].
-/// @param u per body: velocities, or their changes by forces [m/s, rad/s]
-double speeds_of(const Block& contact, std::span<const Vec6> u);
+/// Sum of the speeds of the bodies of a contact, of their centres of mass [m/s], or of a limit, of
+/// their rotation [rad/s]. @param u per body: velocities, or their changes by forces [m/s, rad/s]
+double speeds_of(const Block& row, std::span<const Vec6> u);
+
+/// The largest speed that the forces of a sub-step cause along the row of a contact [m/s], or of a
+/// limit, whose body the joints push too [rad/s].
+double speed_by_forces(const Substep& sub, const Block& row);
 
 /// For contacts that are found along the motion: an overlap is not corrected by velocities, and the
 /// softness, reduced under a load, acts on the change of the force alone. Bodies would sink with

@@ -103,11 +103,11 @@ void Euler::find_hit(const Substep& sub) {
   if (sub.smooth) return;
   for (std::size_t i = 0; i < sub.rows.size(); ++i) {
     const Block& block = sub.rows[i];
-    const bool acts = !block.is_contact() || block.impulse[0] > 0.0 ||
+    const bool acts = !block.is_unilateral() || block.impulse[0] > 0.0 ||
                       (!sub.struck.empty() && sub.struck[i] != 0 && sub.gain.empty());
     if (!acts) continue;
-    const bool arrives = !sub.gain.empty() && block.is_contact() &&
-                         block.phi[0] > sub.dt * speeds_of(block, sub.gain);
+    const bool arrives = !sub.gain.empty() && block.is_unilateral() &&
+                         block.phi[0] > sub.dt * speed_by_forces(sub, block);
     for (const int body : {block.a, block.b}) {
       if (body < 0) continue;
       std::uint8_t& hit = hit_[index(body)];

@@ -47,7 +47,7 @@ bool bends_rows(const Substep& sub) {
 // like the others. True if the part has more joints than bodies.
 bool closes_loops(const Substep& sub) {
   const auto joined = std::count_if(sub.rows.begin(), sub.rows.end(), [](const Block& block) {
-    return !block.is_contact() && !is_grab(block);
+    return !block.is_bounded() && !is_grab(block);
   });
   return joined > std::ssize(sub.part->moving);
 }
@@ -185,7 +185,7 @@ void GyroscopicStage::bend_rows(const Substep& sub) const {
     return u;
   };
   for (Block& block : sub.rows) {
-    if (block.is_contact() || is_grab(block) || !(turns(block.a) || turns(block.b))) continue;
+    if (block.is_bounded() || is_grab(block) || !(turns(block.a) || turns(block.b))) continue;
     const Vec6 u_a = predicted_turn(block.a);
     const Vec6 u_b = predicted_turn(block.b);
     if (dt * std::max(u_a.tail<3>().norm(), u_b.tail<3>().norm()) > kMaxPredictedTurn) continue;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/constraints/contact.hpp"
+#include "core/stepping/drift.hpp"
 
 namespace substep {
 namespace {
@@ -20,6 +21,7 @@ void keep_speeds(Block& joint, std::span<const Vec6> u) {
 }  // namespace
 
 double RestitutionStage::restitution_of(const Block& contact) const {
+  if (!contact.is_contact()) return contact.restitution;
   return std::max(scene_.bodies[index(contact.body_a)].restitution,
                   scene_.bodies[index(contact.body_b)].restitution);
 }
@@ -30,8 +32,10 @@ double RestitutionStage::restitution_of(const Block& contact) const {
 // is phi + time J (u + g) if u has changed since the start, phi that of a motion at u throughout.
 RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<const Vec6> u,
                                                   const Block& block) const {
-  if (!block.is_contact() || block.awaits || restitution_of(block) == 0.0) return {};
-  const double least = scene_.contact.restitution_speed;
+  if (!block.is_unilateral() || block.awaits || restitution_of(block) == 0.0) return {};
+  // What returns within the sub-step rests.
+  const double least = block.is_contact() ? scene_.contact.restitution_speed
+                                          : speed_by_forces(sub, block) / restitution_of(block);
   const double before = normal_speed(block, u);
   if (sub.gain.empty()) {
     const bool closes = block.phi[0] + before * sub.dt < 0.0;
@@ -48,7 +52,6 @@ RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<
   const double force_time = time + duration - 0.5 * sub.dt;
   const double kick = acceleration * force_time;
   const double speed = -(before + kick);
-  // What returns within the sub-step rests.
   const bool returns = restitution_of(block) * speed <= -acceleration * sub.dt;
   return speed >= least && !returns ? Impact{speed, force_time, kick, time, acceleration}
                                     : Impact{};
@@ -92,7 +95,7 @@ bool RestitutionStage::spreads(const Substep& sub, std::span<const Vec6> u,
   if (!any) return false;
   const bool spread =
       !sub.gain.empty() || std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
-        if (!block.is_contact() || restitution_of(block) == 0.0) return false;
+        if (!block.is_unilateral() || restitution_of(block) == 0.0) return false;
         if (impact(sub, u, block).speed > 0.0) return false;
         double change = 0.0;  // each body's speed changes by at most twice its fastest impact
         for (const int body : {block.a, block.b}) {
@@ -117,8 +120,12 @@ bool RestitutionStage::set_impacts(const Substep& sub, std::span<const Vec6> u, 
     Impact& hit = hits_[i];
     std::fill(std::begin(block.bias), std::end(block.bias), 0.0);
     std::fill(std::begin(block.impulse), std::end(block.impulse), 0.0);
-    if (!block.is_contact()) {
-      if (!sub.gain.empty()) keep_speeds(block, u);
+    if (!block.is_unilateral()) {
+      if (block.is_motor()) {
+        block.lo = block.hi = 0.0;
+      } else if (!sub.gain.empty()) {
+        keep_speeds(block, u);
+      }
       continue;
     }
     std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);

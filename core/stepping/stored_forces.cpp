@@ -13,11 +13,11 @@ namespace {
 
 void seed(const Substep& sub, const State& state, const StoredForce& force, Block& block) {
   const double time = impulse_time_of(sub, block);
-  const bool seeds = block.is_contact() || starts_from_last_forces(sub.settings);
+  const bool seeds = block.is_bounded() || starts_from_last_forces(sub.settings);
   for (int row = 0; row < block.rows; ++row) {
     block.elastic[row] = force.elastic[row];
     if (seeds) block.impulse[row] = force.lambda[row] * time;
-    if (block.is_contact()) block.active_set[row] = force.active_set[row];
+    if (block.is_bounded()) block.active_set[row] = force.active_set[row];
   }
   block.was_closed = force.lambda[0] > 0.0;
   block.seeded = true;
@@ -27,8 +27,9 @@ void seed(const Substep& sub, const State& state, const StoredForce& force, Bloc
 }  // namespace
 
 bool forces_are_stored(const Substep& sub) {
-  return sub.scene->effects.contact || starts_from_last_forces(sub.settings) ||
-         springs_are_stored(sub);
+  const Effects& effects = sub.scene->effects;
+  return effects.contact || effects.limits || effects.motors ||
+         starts_from_last_forces(sub.settings) || springs_are_stored(sub);
 }
 
 std::size_t StoredForceIndex::find(std::span<const StoredForce> forces, std::uint64_t id,
@@ -55,7 +56,7 @@ void seed_forces(const Substep& sub, const State& state, std::span<const StoredF
   for (Block& block : sub.rows) {
     for (double& impulse : block.impulse) impulse = 0.0;
     block.seeded = false;
-    if (block.is_contact()) {
+    if (block.is_bounded()) {
       std::fill_n(block.active_set, kMaxRows, kUnknownSet);
       block.was_closed = false;
       block.elastic[0] = 0.0;
@@ -76,7 +77,7 @@ void store_forces(const Substep& sub, const State& state, std::vector<StoredForc
   const bool soft = drift_law(sub.settings) == Drift::kSoft;
   const bool springs = springs_are_stored(sub);
   for (Block& block : sub.rows) {
-    if (!block.is_contact() && !all && !springs) continue;
+    if (!block.is_bounded() && !all && !springs) continue;
     find_lambda(sub, block, block.lambda);
     StoredForce& force = out.emplace_back();
     force.id = block.id;
@@ -86,9 +87,9 @@ void store_forces(const Substep& sub, const State& state, std::vector<StoredForc
     }
     sub.integrator->store(sub, state, block, force);
     if (!soft || is_grab(block)) continue;
-    if (block.is_contact()) {
+    if (block.is_unilateral()) {
       force.elastic[0] = -block.C[0] * block.lambda[0];
-    } else if (springs) {
+    } else if (springs && !block.is_bounded()) {
       store_elastic(block);
       std::copy_n(block.elastic, block.rows, force.elastic);
     }

@@ -145,7 +145,7 @@ Vec3 torque_of(const Substep& sub, const State& state, std::size_t body) {
 }
 
 bool gives_forces(const Substep& sub, const Block& block) {
-  return sub.has_springs && !block.is_contact() && !is_grab(block);
+  return sub.has_springs && !block.is_bounded() && !is_grab(block);
 }
 
 }  // namespace
@@ -230,7 +230,7 @@ std::int64_t Stormer::aim_at_poses(const Substep& sub, State& state) {
   std::int64_t flops = aim_flops(sub.rows, std::ssize(sub.part->moving));
   for (Block& block : sub.rows) {
     double gained[kMaxRows];
-    if (!block.is_contact()) {
+    if (!block.is_bounded()) {
       moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
     } else if (aims_rolling(sub.settings) && sticks(block)) {
       moved_sliding(block, motions_.of(block.a), motions_.of(block.b), gained + 1);
@@ -285,7 +285,7 @@ void Stormer::settle(Substep& sub, State& /*state*/) {
 // poses are taken to move by the velocities.
 void Stormer::predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const {
   const bool smooth = std::none_of(sub.rows.begin(), sub.rows.end(),
-                                   [](const Block& block) { return block.is_contact(); });
+                                   [](const Block& block) { return block.is_bounded(); });
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     const bool known = smooth && !state.acceleration.empty();

@@ -204,7 +204,7 @@ TEST(SweptImpacts, ARowOfBallsPassesAnImpactOn) {
   }
   builder.body(0).velocity = {5.0, 0.0, 0.0};
   builder.scene().gravity.setZero();
-  for (const int n : kSubsteps) {
+  for (const int n : {1, 4, 64, 600}) {
     SCOPED_TRACE(n);
     Simulator simulator = simulator_of(builder.build(), steady_at(n));
     for (int i = 0; i < 30; ++i) simulator.step();

@@ -1,0 +1,181 @@
+#include "core/constraints/coordinate_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constraints/contact.hpp"
+#include "core/constraints/joint_rows.hpp"
+#include "core/constraints/moved_rows.hpp"
+#include "core/model/joint_fields.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kClosed = 1e-2;  // of kWidth: limits that are closer than this have rows
+constexpr double kMargin =
+    0.1;  // with rows for open limits: how far open, besides the motion [rad]
+constexpr double kRounding = 1e-12;  // of the angle where a limit closes [rad]
+
+/// The parts of a joint that have rows of their own.
+enum class Acts : std::uint8_t { kLower, kUpper, kMotor };
+
+/// Distinct from the ids of joints, contacts and grabs.
+std::uint64_t id_of(std::size_t joint, Acts part) {
+  return (1ULL << 62U) | (static_cast<std::uint64_t>(joint) << 2U) |
+         static_cast<std::uint64_t>(part);
+}
+
+/// Largest change of the angle between two bodies in a motion [rad].
+double largest_turn(const Block& block, std::span<const Vec6> w, double dt) {
+  double speed = 0.0;
+  for (const int body : {block.a, block.b}) {
+    if (body >= 0) speed += w[index(body)].tail<3>().norm();
+  }
+  return dt * speed;
+}
+
+/// When the gap closes: false position between a gap that is open and one that is not.
+double closing_time(const auto& gap_at, double open, double open_at, double closed,
+                    double closed_at) {
+  constexpr int kMostSteps = 60;
+  for (int i = 0; i < kMostSteps && closed < -kRounding; ++i) {
+    double at = open_at + (closed_at - open_at) * open / (open - closed);
+    if (i % 3 == 2) at = 0.5 * (open_at + closed_at);
+    const double gap = gap_at(at);
+    if (gap > 0.0) {
+      open = gap;
+      open_at = at;
+    } else {
+      closed = gap;
+      closed_at = at;
+    }
+  }
+  return closed_at;
+}
+
+}  // namespace
+
+CoordinateStage::CoordinateStage(const Scene& scene) : scene_(scene) {
+  for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
+    first_.push_back(placed_.size());
+    const auto add = [&](Acts part, const JointGeometry& geometry) {
+      placed_.push_back(
+          {id_of(joint, part), static_cast<int>(joint), part == Acts::kMotor, geometry});
+    };
+    const auto* hinge = std::get_if<HingeJoint>(&scene.joints[joint]);
+    if (hinge == nullptr) continue;
+    if (hinge->limit && scene.effects.limits) {
+      add(Acts::kLower, HingeAngle::geometry(*hinge, *hinge->limit, false));
+      add(Acts::kUpper, HingeAngle::geometry(*hinge, *hinge->limit, true));
+      has_limits_ = true;
+    }
+    if (hinge->motor && scene.effects.motors) add(Acts::kMotor, HingeAngle::geometry(*hinge));
+  }
+  first_.push_back(placed_.size());
+}
+
+int CoordinateStage::joint_of(std::uint64_t id) {
+  return static_cast<int>((id & ~(3ULL << 62U)) >> 2U);
+}
+
+const AngularMotor& CoordinateStage::motor(const Block& row) const {
+  return *motor_of(scene_.joints[index(joint_of(row.id))]);
+}
+
+const AngleLimit& CoordinateStage::limit(const Placed& placed) const {
+  return *limit_of(scene_.joints[index(placed.joint)]);
+}
+
+template <class Visit>
+void CoordinateStage::for_each(const Part& part, Visit&& visit) {
+  for (const int joint : part.joints) {
+    for (std::size_t i = first_[index(joint)]; i < first_[index(joint) + 1]; ++i) visit(placed_[i]);
+  }
+}
+
+Block& CoordinateStage::place(const Placed& placed, const State& state, std::span<const Mat3> R_WB,
+                              Block& block) const {
+  const JointBase& joint = base(scene_.joints[index(placed.joint)]);
+  const auto moving = [&](int body) {
+    return body == kWorld || scene_.bodies[index(body)].is_static ? -1 : body;
+  };
+  const auto side = [&](int body) {
+    return body == kWorld ? Side{} : Side{state.x[index(body)], R_WB[index(body)]};
+  };
+  block.kind = kind_of_coordinate<HingeAngle>();
+  block.id = placed.id;
+  block.body_a = joint.a;
+  block.body_b = joint.b;
+  block.a = moving(joint.a);
+  block.b = moving(joint.b);
+  block.awaits = block.soft = false;
+  block.curved = block.spring_ahead[0] = 0.0;
+  block.mu = 0.0;
+  HingeAngle::constants(block);
+  HingeAngle::rows(placed.geometry, side(joint.a), side(joint.b), block);
+  if (placed.is_motor) {
+    block.phi[0] = 0.0;
+    block.lo = block.hi = 0.0;
+  } else {
+    block.lo = 0.0;
+    block.hi = kUnbounded;
+    block.restitution = limit(placed).restitution;
+  }
+  return block;
+}
+
+void CoordinateStage::append(const Part& part, const State& state, std::span<const Mat3> R_WB,
+                             double dt, bool touching, Blocks& blocks) {
+  for_each(part, [&](Placed& placed) {
+    placed.row = blocks.size();
+    const Block& block = place(placed, state, R_WB, blocks.append());
+    if (placed.is_motor) return;
+    const double near =
+        touching ? kClosed * kWidth : kMargin + 2.0 * largest_turn(block, state.u, dt);
+    if (block.phi[0] > near) blocks.keep(placed.row);
+  });
+}
+
+SweptContacts::Found CoordinateStage::sweep(const SweptContacts::Sweep& sweep, std::size_t first,
+                                            Blocks& blocks) {
+  using Found = SweptContacts::Found;
+  constexpr double kAllowed = SweptContacts::kAllowedOverlap * kWidth;
+  earliest_ = sweep.dt;
+  Found all = Found::kNothing;
+  for_each(sweep.part, [&](Placed& placed) {
+    if (placed.is_motor) return;
+    const Block& start = place(placed, sweep.state, sweep.R_WB, scratch_);
+    if (start.phi[0] > largest_turn(start, sweep.w, sweep.until)) return;
+    const auto motion_of = [&](int body, double time) {
+      return body < 0 ? Motion{} : motion(sweep.w[index(body)], time);
+    };
+    const auto gap_at = [&](double time) {
+      double gained[kMaxRows];
+      moved_errors(start, motion_of(start.a, time), motion_of(start.b, time), gained);
+      return start.phi[0] + gained[0];
+    };
+    const bool has_row = placed.row >= first && placed.row < blocks.size() &&
+                         blocks.all()[placed.row].id == placed.id;
+    const double gap = gap_at(has_row ? sweep.dt : sweep.until);
+    if (has_row) {
+      Block& row = blocks.all()[placed.row];
+      if (gap > std::min(start.phi[0], 0.0) - kAllowed) return;
+      row.curved = gap - (row.phi[0] + sweep.dt * normal_speed(row, sweep.w));
+      all = std::max(all, Found::kOverlaps);
+      earliest_ = 0.0;
+      return;
+    }
+    if (gap >= 0.0 || start.phi[0] <= 0.0) return;
+    const double time = closing_time(gap_at, start.phi[0], 0.0, gap, sweep.until);
+    placed.row = blocks.size();
+    Block& row = blocks.append();
+    row = start;
+    move_rows(start, motion_of(start.a, time), motion_of(start.b, time), row);
+    row.phi[0] = -time * normal_speed(row, sweep.w);
+    all = Found::kContacts;
+    earliest_ = std::min(earliest_, time);
+  });
+  return all;
+}
+
+}  // namespace substep

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/constraints/block.hpp"
+#include "core/constraints/joint_geometry.hpp"
+#include "core/constraints/swept_contacts.hpp"
+#include "core/model/scene.hpp"
+
+namespace substep {
+
+/// Limits and motors of joints: one row for each that acts, on a coordinate of CoordinateTable.
+class CoordinateStage {
+ public:
+  /// Limits and motors whose effect is enabled.
+  explicit CoordinateStage(const Scene& scene);
+  /// Largest number of rows.
+  [[nodiscard]] std::size_t size() const { return placed_.size(); }
+  [[nodiscard]] bool has_limits() const { return has_limits_; }
+
+  /// Appends motors, and limits that are closed or may close.
+  /// @param dt the sub-step [s]  @param touching only limits that are closed: sweep() finds others
+  void append(const Part& part, const State& state, std::span<const Mat3> R_WB, double dt,
+              bool touching, Blocks& blocks);
+  /// Appends the limits that a motion closes, and corrects rows for its curvature:
+  /// SweptContacts::append().
+  SweptContacts::Found sweep(const SweptContacts::Sweep& sweep, std::size_t first, Blocks& blocks);
+  /// As SweptContacts::earliest().
+  [[nodiscard]] double earliest() const { return earliest_; }
+
+  /// Velocity of the motor of a row [rad/s], and its largest torque [N m].
+  [[nodiscard]] const AngularMotor& motor(const Block& row) const;
+
+  /// Whether a block's id is that of a limit or a motor, and its joint.
+  [[nodiscard]] static bool is_id(std::uint64_t id) { return id >> 62U == 1U; }
+  [[nodiscard]] static int joint_of(std::uint64_t id);
+
+  /// In place of the half width of a shape: the measure of the tolerances of limits [rad].
+  static constexpr double kWidth = 0.1;
+
+ private:
+  struct Placed {
+    std::uint64_t id = 0;
+    int joint = 0;
+    bool is_motor = false;
+    JointGeometry geometry;
+    std::size_t row = 0;  // the last block
+  };
+  [[nodiscard]] Block& place(const Placed& placed, const State& state, std::span<const Mat3> R_WB,
+                             Block& block) const;
+  [[nodiscard]] const AngleLimit& limit(const Placed& placed) const;
+  template <class Visit>
+  void for_each(const Part& part, Visit&& visit);
+
+  const Scene& scene_;
+  std::vector<Placed> placed_;
+  std::vector<std::size_t> first_;  // per joint: its first one; one more at the end
+  Block scratch_;
+  bool has_limits_ = false;
+  double earliest_ = 0.0;
+};
+
+}  // namespace substep

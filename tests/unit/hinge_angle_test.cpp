@@ -1,0 +1,227 @@
+#include <cmath>
+#include <numbers>
+
+#include "core/constraints/coordinate_stage.hpp"
+#include "core/constraints/joint_rows.hpp"
+#include "core/constraints/moved_rows.hpp"
+#include "core/math/across.hpp"
+#include "core/math/angle.hpp"
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+TEST(Angle, EqualsThatOfTheLibrary) {
+  Random random(1);
+  for (int trial = 0; trial < 100000; ++trial) {
+    const double s = uniform(random);
+    const double c = uniform(random) * (trial % 3 == 0 ? 1e-9 : 1.0);
+    EXPECT_NEAR(angle_of(s, c), std::atan2(s, c), 1e-15 + 4e-16 * std::abs(std::atan2(s, c)));
+  }
+  for (const double small : {1e-300, 1e-12, 1e-5}) {
+    EXPECT_NEAR(angle_of(small, 1.0) / small, 1.0, 1e-10);
+  }
+  EXPECT_EQ(angle_of(0.0, 1.0), 0.0);
+  EXPECT_EQ(angle_of(0.0, 0.0), 0.0);
+  EXPECT_NEAR(angle_of(0.0, -1.0), std::numbers::pi, 1e-15);
+}
+
+/// A hinge between two bodies that holds, at a random angle.
+struct Turned {
+  HingeJoint hinge;
+  AngleLimit limit;
+  Quat q[2];
+  double angle = 0.0;
+
+  explicit Turned(Random& random) {
+    q[1] = random_rotation(random);
+    angle = uniform(random, -3.0, 3.0);
+    Vec3 third;
+    hinge.axis_b = random_vector(random).normalized();
+    across(hinge.axis_b, limit.across_b, third);
+    const Vec3 axis = q[1] * hinge.axis_b;
+    const Quat turn = Quat(Eigen::AngleAxisd(angle, axis)) * q[1];
+    q[0] = turn * random_rotation(random);
+    hinge.axis_a = q[0].conjugate() * axis;
+    limit.across_a = q[0].conjugate() * (turn * limit.across_b);
+    limit.lower = angle - uniform(random, 0.1, 1.0);
+    limit.upper = angle + uniform(random, 0.1, 1.0);
+  }
+
+  /// @param by rotations of both bodies
+  [[nodiscard]] Block row(bool upper, const Quat& by_a = Quat::Identity(),
+                          const Quat& by_b = Quat::Identity()) const {
+    Block block;
+    block.a = 0;
+    block.b = 1;
+    block.kind = kind_of_coordinate<HingeAngle>();
+    HingeAngle::constants(block);
+    const Vec3 x = Vec3::Zero();
+    const Mat3 R_a = (by_a * q[0]).toRotationMatrix();
+    const Mat3 R_b = (by_b * q[1]).toRotationMatrix();
+    HingeAngle::rows(HingeAngle::geometry(hinge, limit, upper), {x, R_a}, {x, R_b}, block);
+    return block;
+  }
+};
+
+Quat turn_by(double angle, int axis) { return Quat(Eigen::AngleAxisd(angle, Vec3::Unit(axis))); }
+
+TEST(HingeAngle, MeasuresTheDistanceFromBothBounds) {
+  Random random(2);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Turned turned(random);
+    EXPECT_NEAR(turned.row(false).phi[0], turned.angle - turned.limit.lower, 1e-14);
+    EXPECT_NEAR(turned.row(true).phi[0], turned.limit.upper - turned.angle, 1e-14);
+  }
+}
+
+// Wherever the hinge is, the nearer bound of a range of almost a full turn is told apart.
+TEST(HingeAngle, DoesNotConfuseTheBoundsOfAWideRange) {
+  Random random(3);
+  for (int trial = 0; trial < 100; ++trial) {
+    Turned turned(random);
+    turned.limit.lower = turned.angle - 0.02;
+    turned.limit.upper = turned.limit.lower + 6.2;
+    EXPECT_NEAR(turned.row(false).phi[0], 0.02, 1e-13);
+    EXPECT_NEAR(turned.row(true).phi[0], 6.18, 1e-13);
+  }
+}
+
+TEST(HingeAngle, GradientMatchesFiniteDifferences) {
+  Random random(4);
+  constexpr double kStep = 1e-5;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Turned turned(random);
+    for (const bool upper : {false, true}) {
+      const Block block = turned.row(upper);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Quat forth = turn_by(kStep, axis);
+        const Quat back = turn_by(-kStep, axis);
+        const Quat none = Quat::Identity();
+        const double by_a =
+            turned.row(upper, forth, none).phi[0] - turned.row(upper, back, none).phi[0];
+        const double by_b =
+            turned.row(upper, none, forth).phi[0] - turned.row(upper, none, back).phi[0];
+        EXPECT_NEAR(gradient(block, 0, true)[3 + axis], by_a / (2.0 * kStep), 1e-9);
+        EXPECT_NEAR(gradient(block, 0, false)[3 + axis], by_b / (2.0 * kStep), 1e-9);
+      }
+    }
+  }
+}
+
+// The torque rotates with a, and in the mean of both orders with the mean of both bodies.
+TEST(HingeAngle, StiffnessMatchesFiniteDifferences) {
+  Random random(5);
+  constexpr double kStep = 1e-5;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Turned turned(random);
+    Block block = turned.row(false);
+    block.lambda[0] = uniform(random, 0.5, 2.0);
+    StiffnessMatrix K;
+    StiffnessMatrix mean;
+    for (StiffnessMatrix* of : {&K, &mean}) of->clear(2);
+    HingeAngle::stiffness(block, K);
+    HingeAngle::mean_stiffness(block, mean);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto torque = [&](double by, bool of_a) -> Vec3 {
+        const Quat turn = turn_by(by, axis);
+        return block.lambda[0] * (of_a ? Vec3(turn * block.axis) : block.axis);
+      };
+      const Vec3 by_a = (torque(kStep, true) - torque(-kStep, true)) / (2.0 * kStep);
+      EXPECT_LT((K.block(0, 0).col(3 + axis).tail<3>() - by_a).norm(), 1e-9);
+      EXPECT_LT((K.block(1, 0).col(3 + axis).tail<3>() + by_a).norm(), 1e-9);
+      EXPECT_EQ(K.block(0, 1).norm() + K.block(1, 1).norm(), 0.0);
+      for (const int by : {0, 1}) {
+        EXPECT_LT((mean.block(0, by).col(3 + axis).tail<3>() - 0.5 * by_a).norm(), 1e-9);
+        EXPECT_LT((mean.block(1, by).col(3 + axis).tail<3>() + 0.5 * by_a).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(HingeAngle, MovedRowsAreTheRowsOfMovedBodies) {
+  Random random(6);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Turned turned(random);
+    // A rotation of both, and one of a about the axis.
+    const Quat both = random_rotation(random);
+    const Quat alone(Eigen::AngleAxisd(uniform(random), turned.q[1] * turned.hinge.axis_b));
+    const Block start = turned.row(true);
+    const Block expected = turned.row(true, both * alone, both);
+    Motion a;
+    Motion b;
+    a.R = (both * alone).toRotationMatrix();
+    b.R = both.toRotationMatrix();
+    Block moved = start;
+    move_rows(start, a, b, moved);
+    EXPECT_NEAR(moved.phi[0], expected.phi[0] - start.phi[0], 1e-13);
+    double gained[kMaxRows];
+    moved_errors(start, a, b, gained);
+    EXPECT_EQ(gained[0], moved.phi[0]);
+    for (const bool of_a : {true, false}) {
+      EXPECT_LT((gradient(moved, 0, of_a) - gradient(expected, 0, of_a)).norm(), 1e-13);
+    }
+    const double force[] = {2.0};
+    Vec6 on_a = Vec6::Zero();
+    Vec6 on_b = Vec6::Zero();
+    HingeAngle::push_change(start, a, b, force, on_a, on_b);
+    EXPECT_LT((on_a - 2.0 * (gradient(moved, 0, true) - gradient(start, 0, true))).norm(), 1e-13);
+    EXPECT_LT((on_b - 2.0 * (gradient(moved, 0, false) - gradient(start, 0, false))).norm(), 1e-13);
+  }
+}
+
+TEST(HingeAngle, CurvatureMatchesFiniteDifferencesWhereTheHingeHolds) {
+  Random random(7);
+  constexpr double t = 1e-4;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Turned turned(random);
+    Vec6 u_a = Vec6::Zero();
+    Vec6 u_b = Vec6::Zero();
+    const Vec3 omega_b = random_vector(random);
+    const Vec3 axis = turned.q[1] * turned.hinge.axis_b;
+    u_b.tail<3>() = omega_b;
+    u_a.tail<3>() = omega_b + uniform(random) * axis;
+    const auto at = [&](double s) {
+      const auto turn = [&](const Vec6& u) {
+        const Vec3 omega = u.tail<3>();
+        return Quat(Eigen::AngleAxisd(s * omega.norm(), omega.normalized()));
+      };
+      return turned.row(false, turn(u_a), turn(u_b)).phi[0];
+    };
+    double found[kMaxRows];
+    HingeAngle::curvature(turned.row(false), u_a, u_b, found);
+    EXPECT_NEAR(found[0], (at(t) - 2.0 * at(0.0) + at(-t)) / (t * t), 1e-6);
+  }
+}
+
+TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
+  Scene scene;
+  scene.effects.joints = scene.effects.limits = scene.effects.motors = true;
+  scene.bodies = {moving(Sphere{0.1}), moving(Sphere{0.1})};
+  HingeJoint hinge;
+  hinge.b = 1;
+  hinge.limit = AngleLimit{-1.0, 1e-4, 0.0, Vec3::UnitX(), Vec3::UnitX()};
+  hinge.motor = AngularMotor{1.0, 2.0};
+  scene.joints = {BallJoint{}, hinge};
+  CoordinateStage stage(scene);
+  EXPECT_EQ(stage.size(), 3U);
+  Blocks blocks;
+  const State state = initial_state(scene);
+  stage.append(whole(scene), state, rotations(state), 0.01, true, blocks);
+  ASSERT_EQ(blocks.size(), 2U) << "the upper bound, which is closed, and the motor";
+  for (const Block& block : blocks.all()) {
+    EXPECT_TRUE(CoordinateStage::is_id(block.id));
+    EXPECT_FALSE(is_contact_id(block.id));
+    EXPECT_EQ(CoordinateStage::joint_of(block.id), 1);
+    EXPECT_TRUE(block.is_bounded());
+  }
+  EXPECT_TRUE(blocks.all()[0].is_unilateral());
+  EXPECT_TRUE(blocks.all()[1].is_motor());
+  EXPECT_EQ(stage.motor(blocks.all()[1]).torque, 2.0);
+  blocks.clear();
+  stage.append(whole(scene), state, rotations(state), 0.01, false, blocks);
+  EXPECT_EQ(blocks.size(), 2U) << "the lower bound is far";
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -125,14 +125,14 @@ double width_to_show(const Scene& scene, const Poses& poses) {
 void add_range(std::vector<Instance>& boxes, const AngleLimit& limit, const Vec3& axis_b,
                const Vec3& at, const Quat& q_b, const Quat& q_a, double r, const Color& color) {
   constexpr int kPieces = 12;
-  const double thin = 0.12 * r;
+  const double thin = 0.15 * r;
   const auto on_arc = [&](int i) -> Vec3 {
     const double angle = limit.lower + (limit.upper - limit.lower) * i / kPieces;
-    return at + 3.0 * r * (q_b * (Eigen::AngleAxisd(angle, axis_b) * limit.across_b));
+    return at + 5.0 * r * (q_b * (Eigen::AngleAxisd(angle, axis_b) * limit.across_b));
   };
   for (int i = 0; i < kPieces; ++i) add_rod(boxes, on_arc(i), on_arc(i + 1), thin, color);
   for (const int end : {0, kPieces}) add_rod(boxes, at, on_arc(end), thin, color);
-  add_rod(boxes, at, at + 3.0 * r * (q_a * limit.across_a), 2.0 * thin, color);
+  add_rod(boxes, at, at + 5.0 * r * (q_a * limit.across_a), 2.0 * thin, color);
 }
 
 }  // namespace
@@ -267,10 +267,11 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
       if (axes->slides && from != x) add_rod(out.boxes, from, x, 0.3 * r, palette.joint);
       const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * axes->a);
       add_box(out.boxes, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);
-      const AngleLimit* limit = limit_of(joint);
+      const AngleLimit* limit = angle_limit_of(joint);
       if (limit != nullptr && scene.effects.limits) {
         const Quat q_b = j.b == kWorld ? Quat(Quat::Identity()) : poses.q[b];
-        add_range(out.boxes, *limit, axes->b, x, q_b, poses.q[a], r, palette.joint);
+        add_range(out.boxes, *limit, axes->b, x, q_b, poses.q[a], r,
+                  mix(palette.joint, palette.body, 0.6));
       }
     } else {
       // A fully rounded box: there are many of them, and they are small.

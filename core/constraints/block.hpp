@@ -39,8 +39,9 @@ struct Block {
   // further rows have no linear part and J_b = -J_a, whichever side moves. Solvers rely on this,
   // and only J_a of the further rows is stored; see gradient(). All other blocks store J_a and J_b.
   bool has_point_rows = false;
-  std::int8_t position_rows = 0;  // joint: number of positional rows; they precede the angular ones
-  bool seeded = false;            // the block existed in the last sub-step: impulse is its seed
+  std::int8_t position_rows =
+      0;                // not of a contact: number of positional rows, before angular ones
+  bool seeded = false;  // the block existed in the last sub-step: impulse is its seed
   // Contact or limit.
   bool was_closed = false;           // carried a force in the last sub-step
   bool awaits = false;               // open, it closes at the end of the sub-step or later
@@ -109,6 +110,8 @@ struct Block {
   [[nodiscard]] bool is_bounded() const { return kind >= BlockKind::kFirstCoordinate; }
   /// A contact or a limit: it only pushes, and opens and closes.
   [[nodiscard]] bool is_unilateral() const { return is_bounded() && !(hi < kUnbounded); }
+  /// The coordinate of a joint as a row: a limit or a motor.
+  [[nodiscard]] bool is_coordinate() const { return is_bounded() && !is_contact(); }
   /// A motor.
   [[nodiscard]] bool is_motor() const { return is_bounded() && hi < kUnbounded; }
 };

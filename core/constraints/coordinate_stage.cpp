@@ -11,10 +11,10 @@
 namespace substep {
 namespace {
 
-constexpr double kClosed = 1e-2;  // of kWidth: limits that are closer than this have rows
-constexpr double kMargin =
-    0.1;  // with rows for open limits: how far open, besides the motion [rad]
-constexpr double kRounding = 1e-12;  // of the angle where a limit closes [rad]
+// Parts of the width.
+constexpr double kClosed = 1e-2;     // limits that are closer than this have rows
+constexpr double kMargin = 1.0;      // or, with rows for open limits, besides the motion
+constexpr double kRounding = 1e-11;  // of the coordinate where a limit closes
 
 /// The parts of a joint that have rows of their own.
 enum class Acts : std::uint8_t { kLower, kUpper, kMotor };
@@ -25,20 +25,26 @@ std::uint64_t id_of(std::size_t joint, Acts part) {
          static_cast<std::uint64_t>(part);
 }
 
-/// Largest change of the angle between two bodies in a motion [rad].
-double largest_turn(const Block& block, std::span<const Vec6> w, double dt) {
+/// Largest change of a coordinate in a motion [rad or m].
+double largest_change(const Block& block, std::span<const Vec6> w, double dt) {
   double speed = 0.0;
-  for (const int body : {block.a, block.b}) {
-    if (body >= 0) speed += w[index(body)].tail<3>().norm();
+  for (const bool of_a : {true, false}) {
+    const int body = of_a ? block.a : block.b;
+    if (body < 0) continue;
+    const Vec6& u = w[index(body)];
+    const double turning = u.tail<3>().norm();
+    speed += block.position_rows == 0
+                 ? turning
+                 : u.head<3>().norm() + turning * (of_a ? block.r_a : block.r_b).norm();
   }
   return dt * speed;
 }
 
 /// When the gap closes: false position between a gap that is open and one that is not.
 double closing_time(const auto& gap_at, double open, double open_at, double closed,
-                    double closed_at) {
+                    double closed_at, double tolerance) {
   constexpr int kMostSteps = 60;
-  for (int i = 0; i < kMostSteps && closed < -kRounding; ++i) {
+  for (int i = 0; i < kMostSteps && closed < -tolerance; ++i) {
     double at = open_at + (closed_at - open_at) * open / (open - closed);
     if (i % 3 == 2) at = 0.5 * (open_at + closed_at);
     const double gap = gap_at(at);
@@ -58,18 +64,21 @@ double closing_time(const auto& gap_at, double open, double open_at, double clos
 CoordinateStage::CoordinateStage(const Scene& scene) : scene_(scene) {
   for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
     first_.push_back(placed_.size());
-    const auto add = [&](Acts part, const JointGeometry& geometry) {
-      placed_.push_back(
-          {id_of(joint, part), static_cast<int>(joint), part == Acts::kMotor, geometry});
-    };
-    const auto* hinge = std::get_if<HingeJoint>(&scene.joints[joint]);
-    if (hinge == nullptr) continue;
-    if (hinge->limit && scene.effects.limits) {
-      add(Acts::kLower, HingeAngle::geometry(*hinge, *hinge->limit, false));
-      add(Acts::kUpper, HingeAngle::geometry(*hinge, *hinge->limit, true));
-      has_limits_ = true;
-    }
-    if (hinge->motor && scene.effects.motors) add(Acts::kMotor, HingeAngle::geometry(*hinge));
+    const Body& a = scene.bodies[index(base(scene.joints[joint]).a)];
+    for_each_coordinate([&]<class Rows>(Rows) {
+      const auto* own = std::get_if<typename Rows::Owner>(&scene.joints[joint]);
+      if (own == nullptr) return;
+      const auto add = [&](Acts part, const JointGeometry& geometry) {
+        placed_.push_back({id_of(joint, part), static_cast<int>(joint), part == Acts::kMotor,
+                           kind_of_coordinate<Rows>(), geometry, Rows::width(a)});
+      };
+      if (own->limit && scene.effects.limits) {
+        add(Acts::kLower, Rows::geometry(*own, *own->limit, false));
+        add(Acts::kUpper, Rows::geometry(*own, *own->limit, true));
+        has_limits_ = true;
+      }
+      if (own->motor && scene.effects.motors) add(Acts::kMotor, Rows::geometry(*own));
+    });
   }
   first_.push_back(placed_.size());
 }
@@ -78,12 +87,12 @@ int CoordinateStage::joint_of(std::uint64_t id) {
   return static_cast<int>((id & ~(3ULL << 62U)) >> 2U);
 }
 
-const AngularMotor& CoordinateStage::motor(const Block& row) const {
+const Motor& CoordinateStage::motor(const Block& row) const {
   return *motor_of(scene_.joints[index(joint_of(row.id))]);
 }
 
-const AngleLimit& CoordinateStage::limit(const Placed& placed) const {
-  return *limit_of(scene_.joints[index(placed.joint)]);
+double CoordinateStage::width_of(const Block& row) const {
+  return placed_[first_[index(joint_of(row.id))]].width;
 }
 
 template <class Visit>
@@ -102,7 +111,7 @@ Block& CoordinateStage::place(const Placed& placed, const State& state, std::spa
   const auto side = [&](int body) {
     return body == kWorld ? Side{} : Side{state.x[index(body)], R_WB[index(body)]};
   };
-  block.kind = kind_of_coordinate<HingeAngle>();
+  block.kind = placed.kind;
   block.id = placed.id;
   block.body_a = joint.a;
   block.body_b = joint.b;
@@ -111,15 +120,18 @@ Block& CoordinateStage::place(const Placed& placed, const State& state, std::spa
   block.awaits = block.soft = false;
   block.curved = block.spring_ahead[0] = 0.0;
   block.mu = 0.0;
-  HingeAngle::constants(block);
-  HingeAngle::rows(placed.geometry, side(joint.a), side(joint.b), block);
+  for_each_coordinate([&]<class Rows>(Rows) {
+    if (placed.kind != kind_of_coordinate<Rows>()) return;
+    Rows::constants(block);
+    Rows::rows(placed.geometry, side(joint.a), side(joint.b), block);
+  });
   if (placed.is_motor) {
     block.phi[0] = 0.0;
     block.lo = block.hi = 0.0;
   } else {
     block.lo = 0.0;
     block.hi = kUnbounded;
-    block.restitution = limit(placed).restitution;
+    block.restitution = limit_of(scene_.joints[index(placed.joint)])->restitution;
   }
   return block;
 }
@@ -130,8 +142,9 @@ void CoordinateStage::append(const Part& part, const State& state, std::span<con
     placed.row = blocks.size();
     const Block& block = place(placed, state, R_WB, blocks.append());
     if (placed.is_motor) return;
-    const double near =
-        touching ? kClosed * kWidth : kMargin + 2.0 * largest_turn(block, state.u, dt);
+    const double near = touching
+                            ? kClosed * placed.width
+                            : kMargin * placed.width + 2.0 * largest_change(block, state.u, dt);
     if (block.phi[0] > near) blocks.keep(placed.row);
   });
 }
@@ -139,13 +152,12 @@ void CoordinateStage::append(const Part& part, const State& state, std::span<con
 SweptContacts::Found CoordinateStage::sweep(const SweptContacts::Sweep& sweep, std::size_t first,
                                             Blocks& blocks) {
   using Found = SweptContacts::Found;
-  constexpr double kAllowed = SweptContacts::kAllowedOverlap * kWidth;
   earliest_ = sweep.dt;
   Found all = Found::kNothing;
   for_each(sweep.part, [&](Placed& placed) {
     if (placed.is_motor) return;
     const Block& start = place(placed, sweep.state, sweep.R_WB, scratch_);
-    if (start.phi[0] > largest_turn(start, sweep.w, sweep.until)) return;
+    if (start.phi[0] > largest_change(start, sweep.w, sweep.until)) return;
     const auto motion_of = [&](int body, double time) {
       return body < 0 ? Motion{} : motion(sweep.w[index(body)], time);
     };
@@ -159,14 +171,16 @@ SweptContacts::Found CoordinateStage::sweep(const SweptContacts::Sweep& sweep, s
     const double gap = gap_at(has_row ? sweep.dt : sweep.until);
     if (has_row) {
       Block& row = blocks.all()[placed.row];
-      if (gap > std::min(start.phi[0], 0.0) - kAllowed) return;
+      const double allowed = SweptContacts::kAllowedOverlap * placed.width;
+      if (gap > std::min(start.phi[0], 0.0) - allowed) return;
       row.curved = gap - (row.phi[0] + sweep.dt * normal_speed(row, sweep.w));
       all = std::max(all, Found::kOverlaps);
       earliest_ = 0.0;
       return;
     }
     if (gap >= 0.0 || start.phi[0] <= 0.0) return;
-    const double time = closing_time(gap_at, start.phi[0], 0.0, gap, sweep.until);
+    const double time =
+        closing_time(gap_at, start.phi[0], 0.0, gap, sweep.until, kRounding * placed.width);
     placed.row = blocks.size();
     Block& row = blocks.append();
     row = start;

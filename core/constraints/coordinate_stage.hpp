@@ -30,27 +30,27 @@ class CoordinateStage {
   /// As SweptContacts::earliest().
   [[nodiscard]] double earliest() const { return earliest_; }
 
-  /// Velocity of the motor of a row [rad/s], and its largest torque [N m].
-  [[nodiscard]] const AngularMotor& motor(const Block& row) const;
+  /// The motor of a row.
+  [[nodiscard]] const Motor& motor(const Block& row) const;
+  /// In place of the half width of a shape: the measure of the tolerances of a limit [rad or m].
+  [[nodiscard]] double width_of(const Block& row) const;
 
   /// Whether a block's id is that of a limit or a motor, and its joint.
   [[nodiscard]] static bool is_id(std::uint64_t id) { return id >> 62U == 1U; }
   [[nodiscard]] static int joint_of(std::uint64_t id);
-
-  /// In place of the half width of a shape: the measure of the tolerances of limits [rad].
-  static constexpr double kWidth = 0.1;
 
  private:
   struct Placed {
     std::uint64_t id = 0;
     int joint = 0;
     bool is_motor = false;
+    BlockKind kind = BlockKind::kFirstCoordinate;
     JointGeometry geometry;
+    double width = 0.0;   // as width_of()
     std::size_t row = 0;  // the last block
   };
-  [[nodiscard]] Block& place(const Placed& placed, const State& state, std::span<const Mat3> R_WB,
-                             Block& block) const;
-  [[nodiscard]] const AngleLimit& limit(const Placed& placed) const;
+  Block& place(const Placed& placed, const State& state, std::span<const Mat3> R_WB,
+               Block& block) const;
   template <class Visit>
   void for_each(const Part& part, Visit&& visit);
 

@@ -12,6 +12,11 @@ namespace substep {
 /// The angle of a hinge as one row: phi = theta - lower [rad]. For the upper bound u is reversed,
 /// which reverses the angle. The functions are documented in JointRows.
 struct HingeAngle {
+  using Owner = HingeJoint;
+
+  /// The measure of tolerances [rad].
+  static double width(const Body& /*a*/) { return 0.1; }
+
   /// @param upper whether phi is the distance from the upper bound
   static JointGeometry geometry(const HingeJoint& hinge, const AngleLimit& limit, bool upper) {
     const double sign = upper ? -1.0 : 1.0;

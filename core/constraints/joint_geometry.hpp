@@ -25,7 +25,8 @@ struct JointGeometry {
   Vec3 v2 = Vec3::Zero();
   Vec3 w = Vec3::Zero();
   double length = 0.0;  // of a distance joint [m]
-  // Limited coordinate: the middle of its range and half of its width [rad].
+  // Limited angle: the middle of its range and half of its width [rad]. Limited travel: its bound
+  // in `middle` [m].
   double middle = 0.0;
   double half_range = 0.0;
 };

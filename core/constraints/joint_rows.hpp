@@ -14,6 +14,7 @@
 #include "core/constraints/hinge_angle.hpp"
 #include "core/constraints/hinge_joint.hpp"
 #include "core/constraints/prismatic_joint.hpp"
+#include "core/constraints/slide_travel.hpp"
 #include "core/constraints/stiffness_matrix.hpp"
 #include "core/constraints/weld_joint.hpp"
 
@@ -56,8 +57,8 @@ concept JointRows = PoseRows<Rows> && requires(const J& joint, Block& block) {
 /// In the order of the Joint variant.
 using JointTable = std::tuple<BallRows, HingeRows, PrismaticRows, WeldRows, DistanceRows>;
 
-/// Coordinates of joints that limits and motors act on, one row each.
-using CoordinateTable = std::tuple<HingeAngle>;
+/// Coordinates of joints that limits and motors act on, one row each: of joints of the type Owner.
+using CoordinateTable = std::tuple<HingeAngle, SlideTravel>;
 
 inline constexpr std::size_t kJointKinds = std::variant_size_v<Joint>;
 static_assert(std::tuple_size_v<JointTable> == kJointKinds);
@@ -83,6 +84,15 @@ constexpr BlockKind kind_of_coordinate() {
   } else {
     return kind_of_coordinate<Rows, kFirst + 1>();
   }
+}
+
+/// Calls `visit` with each entry of CoordinateTable.
+template <class Visit>
+void for_each_coordinate(Visit&& visit) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (visit(std::tuple_element_t<I, CoordinateTable>{}), ...);
+  }
+  (std::make_index_sequence<kCoordinates>{});
 }
 
 /// Calls `visit` with the table entry of a joint or a coordinate. @param kind not kContact

@@ -86,7 +86,7 @@ std::string energy_changes_by(const Scene& scene, bool touches) {
     return "impacts";
   }
   if (effects.limits && std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& j) {
-        const AngleLimit* limit = limit_of(j);
+        const Limit* limit = limit_of(j);
         return limit != nullptr && (!effects.restitution || limit->restitution < 1.0);
       })) {
     return "limits";

@@ -121,10 +121,6 @@ std::optional<std::string> across_axis_fault(const Vec3& axis, const Vec3& v) {
 
 std::optional<JointFault> limit_fault(const JointAxes& axes, const AngleLimit& limit) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
-  if (!(limit.lower < limit.upper)) {
-    return JointFault{"limit", "upper must be above lower, " + number_text(limit.lower) +
-                                   " (rad), not " + number_text(limit.upper)};
-  }
   if (!(limit.upper - limit.lower < kTurn)) {
     return JointFault{"limit", "upper and lower must be less than a full turn apart, not " +
                                    number_text(limit.upper - limit.lower) + " (rad)"};
@@ -143,7 +139,11 @@ std::optional<JointFault> limit_fault(const JointAxes& axes, const AngleLimit& l
 std::optional<JointFault> direction_fault(const Joint& joint) {
   const auto axes = axes_of(joint);
   if (!axes) return std::nullopt;
-  if (const AngleLimit* limit = limit_of(joint)) return limit_fault(*axes, *limit);
+  if (const Limit* limit = limit_of(joint); limit != nullptr && !(limit->lower < limit->upper)) {
+    return JointFault{"limit", "upper must be above lower, " + number_text(limit->lower) +
+                                   ", not " + number_text(limit->upper)};
+  }
+  if (const AngleLimit* limit = angle_limit_of(joint)) return limit_fault(*axes, *limit);
   const auto across = across_of(joint);
   if (!across) return std::nullopt;
   if (const auto fault = across_axis_fault(axes->a, across->a))

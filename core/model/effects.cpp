@@ -41,7 +41,7 @@ bool needs_restitution(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),
                      [](const Body& body) { return body.collides && body.restitution > 0.0; }) ||
          std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
-           const AngleLimit* limit = limit_of(joint);
+           const Limit* limit = limit_of(joint);
            return limit != nullptr && limit->restitution > 0.0;
          });
 }

@@ -60,7 +60,7 @@ inline constexpr std::array kEffects{
     EffectEntry{"external", &Effects::external, needs_external,
                 "Constant forces and torques of the scene on its bodies."},
     EffectEntry{"limits", &Effects::limits, needs_limits,
-                "Limits of joints. Off: hinges turn freely.", &Effects::joints},
+                "Limits of joints. Off: hinges turn and slides move freely.", &Effects::joints},
     EffectEntry{"motors", &Effects::motors, needs_motors, "Motors of joints.", &Effects::joints}};
 
 constexpr bool lists_each_flag() {

@@ -28,11 +28,16 @@ struct JointBase {
 // field(key, number, range) for each number, and field(key, part) for each optional part, which has
 // own_fields() too.
 
-/// Bounds of the angle of a hinge: the rotation of across_a from across_b about the axis.
-struct AngleLimit {
-  double lower = 0.0;             // [rad]
-  double upper = 0.0;             // above lower, by less than a full turn [rad]
-  double restitution = 0.0;       // [-]
+/// Bounds of the angle of a hinge or the travel of a slide.
+struct Limit {
+  double lower = 0.0;        // [rad or m]
+  double upper = 0.0;        // above lower [rad or m]
+  double restitution = 0.0;  // [-]
+};
+
+/// The angle is the rotation of across_a from across_b about the axis; its range is less than a
+/// full turn.
+struct AngleLimit : Limit {
   Vec3 across_a = Vec3::UnitX();  // unit, perpendicular to axis_a, in the frame of a [-]
   Vec3 across_b = Vec3::UnitX();  // unit, perpendicular to axis_b, in the frame of b [-]
 
@@ -46,15 +51,35 @@ struct AngleLimit {
   }
 };
 
-/// Turns a relative to b about the axis of their hinge, with as much torque as it has.
-struct AngularMotor {
-  double velocity = 0.0;  // [rad/s]
-  double torque = 1.0;    // largest, > 0 [N m]
+/// The travel is that of the anchor on a from the anchor on b along the axis.
+struct TravelLimit : Limit {
+  template <class Part, class Field>
+  static void own_fields(Part& limit, Field&& field) {
+    field("lower", limit.lower, kPositionRange);
+    field("upper", limit.upper, kPositionRange);
+    field("restitution", limit.restitution, kRestitutionRange);
+  }
+};
 
+/// Moves a relative to b about or along the axis of their joint, with as much effort as it has.
+struct Motor {
+  double velocity = 0.0;  // [rad/s or m/s]
+  double effort = 1.0;    // largest torque or force, > 0 [N m or N]
+};
+
+struct AngularMotor : Motor {
   template <class Part, class Field>
   static void own_fields(Part& motor, Field&& field) {
     field("velocity", motor.velocity, kAngularVelocityRange);
-    field("torque", motor.torque, kMotorTorqueRange);
+    field("torque", motor.effort, kMotorTorqueRange);
+  }
+};
+
+struct LinearMotor : Motor {
+  template <class Part, class Field>
+  static void own_fields(Part& motor, Field&& field) {
+    field("velocity", motor.velocity, kVelocityRange);
+    field("force", motor.effort, kMotorForceRange);
   }
 };
 
@@ -108,6 +133,15 @@ struct OrientedJoint : JointBase {
 struct PrismaticJoint : OrientedJoint {
   static constexpr const char* kType = "prismatic";
   static constexpr bool kSlides = true;
+  std::optional<TravelLimit> limit;
+  std::optional<LinearMotor> motor;
+
+  template <class J, class Field>
+  static void own_fields(J& joint, Field&& field) {
+    OrientedJoint::own_fields(joint, field);
+    field("limit", joint.limit);
+    field("motor", joint.motor);
+  }
 };
 
 /// The two anchors coincide: 6 rows.

@@ -75,16 +75,30 @@ inline std::optional<double> angular_compliance_of(const Joint& joint) {
       joint);
 }
 
-/// The limit of a joint's angle, or null.
-inline const AngleLimit* limit_of(const Joint& joint) {
-  const auto* hinge = std::get_if<HingeJoint>(&joint);
-  return hinge != nullptr && hinge->limit ? &*hinge->limit : nullptr;
+/// The limit of a joint's coordinate, or null.
+inline const Limit* limit_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> const Limit* {
+        if constexpr (requires { j.limit; }) return j.limit ? &*j.limit : nullptr;
+        return nullptr;
+      },
+      joint);
 }
 
 /// The motor of a joint, or null.
-inline const AngularMotor* motor_of(const Joint& joint) {
+inline const Motor* motor_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> const Motor* {
+        if constexpr (requires { j.motor; }) return j.motor ? &*j.motor : nullptr;
+        return nullptr;
+      },
+      joint);
+}
+
+/// The limit of a hinge's angle, or null.
+inline const AngleLimit* angle_limit_of(const Joint& joint) {
   const auto* hinge = std::get_if<HingeJoint>(&joint);
-  return hinge != nullptr && hinge->motor ? &*hinge->motor : nullptr;
+  return hinge != nullptr && hinge->limit ? &*hinge->limit : nullptr;
 }
 
 }  // namespace substep

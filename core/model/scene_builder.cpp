@@ -90,22 +90,24 @@ int SceneBuilder::add_hinge(int a, int b, const Vec3& point, const Vec3& axis) {
   return add(Joint(std::move(joint)));
 }
 
-HingeJoint* SceneBuilder::hinge_at(int index) {
-  return std::get_if<HingeJoint>(&scene_.joints[substep::index(index)]);
+void SceneBuilder::limit(int joint, double lower, double upper, double restitution) {
+  Joint& of = scene_.joints[index(joint)];
+  if (auto* slide = std::get_if<PrismaticJoint>(&of)) {
+    slide->limit = TravelLimit{{lower, upper, restitution}};
+  } else if (auto* hinge = std::get_if<HingeJoint>(&of)) {
+    Vec3 v1;
+    Vec3 v2;
+    across(pose_of(scene_, hinge->a).second * hinge->axis_a, v1, v2);
+    hinge->limit = AngleLimit{
+        {lower, upper, restitution}, axis_in(scene_, hinge->a, v1), axis_in(scene_, hinge->b, v1)};
+  }
 }
 
-void SceneBuilder::limit_hinge(int hinge, double lower, double upper, double restitution) {
-  HingeJoint* joint = hinge_at(hinge);
-  if (joint == nullptr) return;
-  Vec3 v1;
-  Vec3 v2;
-  across(pose_of(scene_, joint->a).second * joint->axis_a, v1, v2);
-  joint->limit = AngleLimit{lower, upper, restitution, axis_in(scene_, joint->a, v1),
-                            axis_in(scene_, joint->b, v1)};
-}
-
-void SceneBuilder::drive_hinge(int hinge, double velocity, double torque) {
-  if (HingeJoint* joint = hinge_at(hinge)) joint->motor = AngularMotor{velocity, torque};
+void SceneBuilder::drive(int joint, double velocity, double effort) {
+  Joint& of = scene_.joints[index(joint)];
+  if (auto* slide = std::get_if<PrismaticJoint>(&of))
+    slide->motor = LinearMotor{{velocity, effort}};
+  if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->motor = AngularMotor{{velocity, effort}};
 }
 
 int SceneBuilder::add_prismatic(int a, int b, const Vec3& point, const Vec3& axis) {

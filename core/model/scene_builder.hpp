@@ -28,11 +28,12 @@ class SceneBuilder {
   /// A hinge: like a ball joint, but a rotates relative to b only about an axis. @param axis world,
   /// of any length [-]
   int add_hinge(int a, int b, const Vec3& point, const Vec3& axis);
-  /// Bounds the angle of a hinge, 0 in the current poses. @param hinge its index  @param lower,
-  /// upper [rad]  @param restitution [-]
-  void limit_hinge(int hinge, double lower, double upper, double restitution = 0.0);
-  /// Turns a hinge. @param velocity of a relative to b [rad/s]  @param torque the largest [N m]
-  void drive_hinge(int hinge, double velocity, double torque);
+  /// Bounds the angle of a hinge, 0 in the current poses, or the travel of a slide from its anchor
+  /// on b. @param joint its index  @param lower, upper [rad or m]  @param restitution [-]
+  void limit(int joint, double lower, double upper, double restitution = 0.0);
+  /// Turns a hinge, or moves a slide. @param velocity of a relative to b [rad/s or m/s]
+  /// @param effort the largest torque or force [N m or N]
+  void drive(int joint, double velocity, double effort);
   /// A point of a slides along an axis of b, without relative rotation.
   int add_prismatic(int a, int b, const Vec3& point, const Vec3& axis);
   /// A weld at a point of the world: a keeps its position and orientation relative to b.
@@ -53,8 +54,6 @@ class SceneBuilder {
  private:
   int add(Body body);
   int add(Joint joint);
-  /// Null if it is no hinge.
-  HingeJoint* hinge_at(int index);
 
   Scene scene_;
 };

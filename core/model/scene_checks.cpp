@@ -47,20 +47,27 @@ std::optional<std::string> parallel_fault(const Vec3& u, const Vec3& v) {
          number_text(kMaxAxisAngleSine);
 }
 
-void check_limit_start(const Joint& joint, const Quat& q_a, const Quat& q_b, std::size_t i,
-                       Problems& problems) {
-  constexpr double kMostBeyond = 0.1;  // [rad]
-  const AngleLimit* limit = limit_of(joint);
+/// @param apart from the anchor on b to that on a, world [m]
+/// @param size of the joint, of which it may start a tenth beyond its bounds [m]
+void check_limit_start(const Joint& joint, const Quat& q_a, const Quat& q_b, const Vec3& apart,
+                       double size, std::size_t i, Problems& problems) {
+  const Limit* limit = limit_of(joint);
   if (limit == nullptr) return;
-  const Vec3 axis = q_a * axes_of(joint)->a;
-  const double angle = angle_about(axis, q_b * limit->across_b, q_a * limit->across_a);
   const double middle = 0.5 * (limit->lower + limit->upper);
-  const double from_middle = wrapped(angle - middle);
-  if (std::abs(from_middle) <= 0.5 * (limit->upper - limit->lower) + kMostBeyond) return;
+  const AngleLimit* of_angle = angle_limit_of(joint);
+  double from_middle = (q_b * axes_of(joint)->b).dot(apart) - middle;
+  if (of_angle != nullptr) {
+    const Vec3 axis = q_a * axes_of(joint)->a;
+    from_middle =
+        wrapped(angle_about(axis, q_b * of_angle->across_b, q_a * of_angle->across_a) - middle);
+  }
+  const double beyond = of_angle != nullptr ? 0.1 : 0.1 * size;
+  if (std::abs(from_middle) <= 0.5 * (limit->upper - limit->lower) + beyond) return;
   problems.push_back({pointer_to(pointer_to("/joints", i), "limit"),
-                      "the angle starts at " + number_text(middle + from_middle) +
-                          " (rad), outside " + number_text(limit->lower) + " to " +
-                          number_text(limit->upper)});
+                      (of_angle != nullptr ? "the angle starts at " : "the travel starts at ") +
+                          number_text(middle + from_middle) +
+                          (of_angle != nullptr ? " (rad)" : " (m)") + ", outside " +
+                          number_text(limit->lower) + " to " + number_text(limit->upper)});
 }
 
 /// 0 for a body that does not move [1/kg].
@@ -96,7 +103,7 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
       const auto fault = parallel_fault(a.q * pair->a, b.q * pair->b);
       if (fault) problems.push_back({pointer_to("/joints", i), what + *fault});
     };
-    check_limit_start(scene.joints[i], a.q, b.q, i, problems);
+    check_limit_start(scene.joints[i], a.q, b.q, apart, 10.0 * largest_gap(scene, j), i, problems);
     check_parallel(axes_of(scene.joints[i]), "the axes ");
     check_parallel(across_of(scene.joints[i]), "the directions across the axes ");
   }
@@ -149,7 +156,7 @@ void check_effects(const Scene& scene, Problems& problems) {
     const auto given = [&](const char* part) {
       return pointer_to(pointer_to("/joints", i), part) + " is given";
     };
-    const AngleLimit* limit = limit_of(scene.joints[i]);
+    const Limit* limit = limit_of(scene.joints[i]);
     rebounds = rebounds || (limit != nullptr && limit->restitution > 0.0);
     if (limit != nullptr && !listed.limits) return missing("limits", given("limit"));
     if (motor_of(scene.joints[i]) != nullptr && !listed.motors) {

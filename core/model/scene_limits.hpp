@@ -36,6 +36,7 @@ inline constexpr Range kComplianceRange = not_negative(1e3, "m/N");
 inline constexpr Range kAngularComplianceRange = not_negative(1e3, "rad/(N m)");
 inline constexpr Range kAngleRange = symmetric(6.3, "rad");
 inline constexpr Range kMotorTorqueRange = positive(1e12, "N m");
+inline constexpr Range kMotorForceRange = positive(1e12, "N");
 inline constexpr Range kRegularisationRange = not_negative(1e3, "1/kg");
 inline constexpr Range kMarginRange = not_negative(10.0, "m");
 inline constexpr Range kAccelerationRange = symmetric(1e30, "m/s^2, rad/s^2");

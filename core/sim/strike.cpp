@@ -109,10 +109,10 @@ bool Simulator::Impl::arrives(const Substep& sub, const Block& block) const {
   return !block.soft && is_fast(sub, block, -normal_speed(block, sub.u_before));
 }
 
-/// The half width of the narrower shape [m]; its measure for a limit [rad].
+/// The half width of the narrower shape [m]; its measure for a limit [rad or m].
 double Simulator::Impl::width_of(const Block& block) const {
   return block.is_contact() ? contact->detector().half_width(block.body_a, block.body_b)
-                            : CoordinateStage::kWidth;
+                            : coordinates->width_of(block);
 }
 
 /// The gap below which bodies touch [m], or a limit is closed [rad].

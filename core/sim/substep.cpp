@@ -192,9 +192,9 @@ void Simulator::Impl::drive_motors(const Substep& sub) const {
   if (!scene->effects.motors) return;
   for (Block& block : sub.rows) {
     if (!block.is_motor()) continue;
-    const AngularMotor& motor = coordinates->motor(block);
+    const Motor& motor = coordinates->motor(block);
     block.bias[0] = -motor.velocity;
-    block.hi = motor.torque * impulse_time_of(sub, block);
+    block.hi = motor.effort * impulse_time_of(sub, block);
     block.lo = -block.hi;
   }
 }

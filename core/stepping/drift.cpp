@@ -75,12 +75,18 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
   }
 }
 
+namespace {
+
+bool is_angle(const Block& row) { return row.is_coordinate() && row.position_rows == 0; }
+
+}  // namespace
+
 double speeds_of(const Block& row, std::span<const Vec6> u) {
   double speed = 0.0;
   for (const int body : {row.a, row.b}) {
     if (body < 0) continue;
     const Vec6& of_body = u[index(body)];
-    speed += row.is_contact() ? of_body.head<3>().norm() : of_body.tail<3>().norm();
+    speed += is_angle(row) ? of_body.tail<3>().norm() : of_body.head<3>().norm();
   }
   return speed;
 }
@@ -91,12 +97,15 @@ double speeds_of(const Block& row, std::span<const Vec6> u) {
 double speed_by_forces(const Substep& sub, const Block& row) {
   if (row.is_contact()) return speeds_of(row, sub.gain);
   double acceleration = 0.0;
-  for (const int i : {row.a, row.b}) {
+  for (const bool of_a : {true, false}) {
+    const int i = of_a ? row.a : row.b;
     if (i < 0) continue;
     const Body& body = sub.scene->bodies[index(i)];
     const double gyration = std::sqrt(body.inertia.minCoeff() / body.mass);
-    acceleration += acceleration_bound(*sub.scene, body) / (2.0 * gyration) +
-                    sub.u_before[index(i)].tail<3>().squaredNorm();
+    const double turning = sub.u_before[index(i)].tail<3>().squaredNorm();
+    const double by_forces = acceleration_bound(*sub.scene, body);
+    acceleration += is_angle(row) ? by_forces / (2.0 * gyration) + turning
+                                  : by_forces + turning * (of_a ? row.r_a : row.r_b).norm();
   }
   return sub.planned_dt * acceleration;
 }

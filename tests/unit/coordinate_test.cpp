@@ -194,14 +194,87 @@ TEST(HingeAngle, CurvatureMatchesFiniteDifferencesWhereTheHingeHolds) {
   }
 }
 
+/// A slide between two bodies that holds, at a random travel.
+struct Slid {
+  PrismaticJoint slide;
+  Vec3 x[2];
+  Quat q[2];
+
+  explicit Slid(Random& random) {
+    for (int i = 0; i < 2; ++i) {
+      x[i] = random_vector(random);
+      q[i] = random_rotation(random);
+    }
+    slide.axis_b = random_vector(random).normalized();
+    slide.anchor_b = random_vector(random);
+    const Vec3 at = x[1] + q[1] * (slide.anchor_b + uniform(random) * slide.axis_b);
+    slide.anchor_a = q[0].conjugate() * (at - x[0]);
+    slide.limit = TravelLimit{{-2.0, 1.5, 0.0}};
+  }
+
+  [[nodiscard]] Block row(bool upper, const Vec3 (&at)[2], const Quat (&turned)[2]) const {
+    Block block;
+    block.a = 0;
+    block.b = 1;
+    block.kind = kind_of_coordinate<SlideTravel>();
+    SlideTravel::constants(block);
+    const Mat3 R_a = turned[0].toRotationMatrix();
+    const Mat3 R_b = turned[1].toRotationMatrix();
+    SlideTravel::rows(SlideTravel::geometry(slide, *slide.limit, upper), {at[0], R_a}, {at[1], R_b},
+                      block);
+    return block;
+  }
+  [[nodiscard]] Block row(bool upper) const { return row(upper, x, q); }
+  /// One degree of freedom of a body moved.
+  [[nodiscard]] Block row(bool upper, int body, int dof, double by) const {
+    Vec3 at[2] = {x[0], x[1]};
+    Quat turned[2] = {q[0], q[1]};
+    if (dof < 3) {
+      at[body][dof] += by;
+    } else {
+      turned[body] = turn_by(by, dof - 3) * q[body];
+    }
+    return row(upper, at, turned);
+  }
+};
+
+TEST(SlideTravel, GradientAndStiffnessMatchFiniteDifferences) {
+  Random random(8);
+  constexpr double kStep = 1e-5;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Slid slid(random);
+    for (const bool upper : {false, true}) {
+      Block block = slid.row(upper);
+      block.lambda[0] = uniform(random, 0.5, 2.0);
+      StiffnessMatrix K;
+      K.clear(2);
+      SlideTravel::stiffness(block, K);
+      for (const int body : {0, 1}) {
+        for (int dof = 0; dof < 6; ++dof) {
+          const Block forth = slid.row(upper, body, dof, kStep);
+          const Block back = slid.row(upper, body, dof, -kStep);
+          EXPECT_NEAR(gradient(block, 0, body == 0)[dof],
+                      (forth.phi[0] - back.phi[0]) / (2.0 * kStep), 1e-9);
+          for (const int on : {0, 1}) {
+            const Vec6 change = block.lambda[0] / (2.0 * kStep) *
+                                (gradient(forth, 0, on == 0) - gradient(back, 0, on == 0));
+            EXPECT_LT((K.block(on, body).col(dof) - change).norm(), 1e-8);
+          }
+        }
+      }
+    }
+    EXPECT_NEAR(slid.row(false).phi[0] + slid.row(true).phi[0], 3.5, 1e-12);
+  }
+}
+
 TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   Scene scene;
   scene.effects.joints = scene.effects.limits = scene.effects.motors = true;
   scene.bodies = {moving(Sphere{0.1}), moving(Sphere{0.1})};
   HingeJoint hinge;
   hinge.b = 1;
-  hinge.limit = AngleLimit{-1.0, 1e-4, 0.0, Vec3::UnitX(), Vec3::UnitX()};
-  hinge.motor = AngularMotor{1.0, 2.0};
+  hinge.limit = AngleLimit{{-1.0, 1e-4, 0.0}, Vec3::UnitX(), Vec3::UnitX()};
+  hinge.motor = AngularMotor{{1.0, 2.0}};
   scene.joints = {BallJoint{}, hinge};
   CoordinateStage stage(scene);
   EXPECT_EQ(stage.size(), 3U);
@@ -217,7 +290,7 @@ TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   }
   EXPECT_TRUE(blocks.all()[0].is_unilateral());
   EXPECT_TRUE(blocks.all()[1].is_motor());
-  EXPECT_EQ(stage.motor(blocks.all()[1]).torque, 2.0);
+  EXPECT_EQ(stage.motor(blocks.all()[1]).effort, 2.0);
   blocks.clear();
   stage.append(whole(scene), state, rotations(state), 0.01, false, blocks);
   EXPECT_EQ(blocks.size(), 2U) << "the lower bound is far";

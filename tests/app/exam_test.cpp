@@ -56,12 +56,19 @@ TEST(ExamCommand, JsonHasEveryRunAndDeterminesTheExitCode) {
   }
 }
 
-TEST(ExamCommand, EveryCasePasses) {
-  const Outcome run = substep("exam --quiet");
+// The two cases of 216 spheres take two thirds of the time: ExamOfSpheres runs the quick runs of
+// both, and the nightly Exam.EveryCasePasses all.
+TEST(ExamCommand, EveryCaseButThoseOf216SpheresPasses) {
+  std::string command = "exam --quiet";
+  for (const std::string& line : lines_of(substep("exam --list").out)) {
+    const std::string name = line.substr(0, line.find(' '));
+    if (!has(name, "_666")) command += " --case " + name;
+  }
+  const Outcome run = substep(command);
   const std::vector<std::string> lines = lines_of(run.out);
-  ASSERT_EQ(lines.size(), 19U) << run.out;
+  ASSERT_EQ(lines.size(), 17U) << run.out;
   for (const std::string& line : lines) EXPECT_FALSE(has(line, "FAILS")) << line;
-  EXPECT_EQ(lines.back(), "18 of 18 cases pass");
+  EXPECT_EQ(lines.back(), "16 of 16 cases pass");
 }
 
 TEST(ExamCommand, PageIsSelfContainedAndHasEveryCase) {

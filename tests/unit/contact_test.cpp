@@ -2,6 +2,7 @@
 #include "core/collision/shape_pairs.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "tests/support/keep_largest.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -350,12 +351,12 @@ int expect_overlaps_touch(int trials, double least, double most) {
 }
 
 TEST(BoxBox, OverlappingBoxesTouchWithTheDepthOfTheOverlap) {
-  constexpr int kTrials = 4000;
+  constexpr int kTrials = repetitions(4000, 400);
   EXPECT_GT(expect_overlaps_touch(kTrials, 0.002, 0.02), kTrials / 20);
 }
 
 // The faces that are preferred can have no common point.
-TEST(BoxBox, ShallowOverlapsTouch) { expect_overlaps_touch(8000, 1e-5, 2e-3); }
+TEST(BoxBox, ShallowOverlapsTouch) { expect_overlaps_touch(repetitions(8000, 800), 1e-5, 2e-3); }
 
 TEST(Contact, HasNoRowBeyondTheMargin) {
   for (const double gap : {0.019, 0.021}) {

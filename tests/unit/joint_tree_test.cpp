@@ -11,6 +11,7 @@
 #include "core/math/hash.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/keep_largest.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/unit/tree_scenes.hpp"
 
 namespace substep::test {
@@ -116,7 +117,7 @@ TEST(JointTree, AgreesWithThePlanarChainOnTheSwingingBox) {
   auto chain = PlanarChain::of(scene);
   ASSERT_TRUE(chain.has_value());
   EXPECT_EQ(tree.size(), 26);
-  for (int frame = 0; frame < 300; ++frame) {
+  for (int frame = 0; frame < repetitions(300, 30); ++frame) {
     tree.advance(scene.frame);
     chain->advance(scene.frame);
     for (int i = 1; i <= 26; ++i) {
@@ -141,7 +142,7 @@ TEST_P(Trees, EnergyAndVerticalAngularMomentumAreConservedForTenSeconds) {
   const double vertical = angular_momentum(scene, tree, pivot).y();
   double exchanged = tree.kinetic();
   double largest = angular_momentum(scene, tree, pivot).norm();
-  for (int frame = 0; frame < 600; ++frame) {
+  for (int frame = 0; frame < repetitions(600, 60); ++frame) {
     tree.advance(1.0 / 60.0);
     keep_largest(exchanged, tree.kinetic());
     keep_largest(largest, angular_momentum(scene, tree, pivot).norm());
@@ -253,7 +254,7 @@ TEST(JointTree, OrderOfBodiesAndSidesOfJointsDoNotMatter) {
       tree.advance(1.0);
       return tree;
     }();
-    for (unsigned seed = 1; seed <= 3; ++seed) {
+    for (unsigned seed = 1; seed <= static_cast<unsigned>(repetitions(3, 1)); ++seed) {
       std::vector<int> place;
       const Scene other = shuffled(scene, seed, place);
       JointTree tree = tree_of(other);

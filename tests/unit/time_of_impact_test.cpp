@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/math/random.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -59,9 +60,10 @@ TEST(TimeOfImpact, IsNothingForWhatMisses) {
 /// are those along the best axis.
 double least_gap(const Mover& a, const Mover& b, double until) {
   double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k <= 20000; ++k) {
-    const Waypoint p = after(a.travel(0), until * k / 20000.0);
-    const Waypoint q = after(b.travel(1), until * k / 20000.0);
+  constexpr int kSamples = repetitions(20000, 2000);
+  for (int k = 0; k <= kSamples; ++k) {
+    const Waypoint p = after(a.travel(0), until * k / kSamples);
+    const Waypoint q = after(b.travel(1), until * k / kSamples);
     const auto* box_a = std::get_if<Box>(&a.shape);
     const auto* box_b = std::get_if<Box>(&b.shape);
     least = std::min(least, separating_axis(p.placed(), *box_a, q.placed(), *box_b).gap);

@@ -48,9 +48,9 @@ struct Block {
   bool soft = false;                 // a spring
   double restitution = 0.0;          // limit [-]
   std::int8_t active_set[kMaxRows];  // BPP: -1 at lo, 0 free (always for joints), +1 at hi
-  // Bounds of the impulse of row 0, unset for a joint, which has none: 0 and infinity for a contact
+  // Bounds of the impulse of row 0, not read for a joint, which has none: 0 and infinity for a contact
   // or a limit, those of its torque for a motor [N s or N m s].
-  double lo = -kUnbounded;
+  double lo = 0.0;
   double hi = kUnbounded;
 
   // Point rows in a direct solve read only the members up to here, to save memory bandwidth.

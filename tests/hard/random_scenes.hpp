@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/math/across.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/model/names.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/setting_fields.hpp"
@@ -113,6 +115,16 @@ inline void join(Scene& scene, int a, int b, const Vec3& point) {
   hinge.axis_a = turned(a, axis);
   hinge.axis_b = turned(b, axis);
   hinge.angular_compliance = any_compliance();
+  if (one_in(3)) {
+    Vec3 v1;
+    Vec3 v2;
+    across(axis, v1, v2);
+    const double lower = -number(0.0, 3.0);
+    const double upper = lower + number(-lower + 1e-3, 3.0);
+    hinge.limit = AngleLimit{
+        {lower, upper, one_in(2) ? 0.0 : number(0.0, 1.0)}, turned(a, v1), turned(b, v1)};
+  }
+  if (one_in(4)) hinge.motor = AngularMotor{{number(-50.0, 50.0), magnitude(1e-6, 1e6)}};
   scene.joints.emplace_back(hinge);
 }
 
@@ -220,7 +232,14 @@ inline Scene any_scene() {
                        [&](const Body& body) { return body.*coefficient > 0.0; });
   };
   effects.friction = effects.contact && has(&Body::friction);
-  effects.restitution = effects.contact && has(&Body::restitution);
+  effects.limits = needs_limits(scene);
+  effects.motors = needs_motors(scene);
+  const bool limits_rebound =
+      std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
+        const Limit* limit = limit_of(joint);
+        return limit != nullptr && limit->restitution > 0.0;
+      });
+  effects.restitution = (effects.contact && has(&Body::restitution)) || limits_rebound;
   scene.settings = any_settings();
   scene.start = one_in(2) ? StartPolicy::kProject : StartPolicy::kKeep;
   effects.external = one_in(4);

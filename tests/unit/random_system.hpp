@@ -28,6 +28,7 @@ struct SystemSize {
   double mu = 0.0;
   double softness = 0.01;     // rows have up to twenty times as much [1/kg]
   int joint_rows = kMaxRows;  // at most
+  int motors = 0;             // with bounds below and above, some of them above or below 0
 };
 
 /// A joint of rigid bodies, at random arms and axes. Data that follows from the arms is poisoned.
@@ -67,10 +68,16 @@ inline RandomSystem random_system(Random& random, const SystemSize& size) {
     u << random_vector(random), random_vector(random);
     problem.u.push_back(u);
   }
-  for (int i = 0; i < size.joints + size.contacts; ++i) {
+  for (int i = 0; i < size.joints + size.contacts + size.motors; ++i) {
     Block block;
-    const bool contact = i >= size.joints;
-    if (contact) {
+    const bool motor = i >= size.joints + size.contacts;
+    const bool contact = i >= size.joints && !motor;
+    if (motor) {
+      block.kind = BlockKind::kFirstCoordinate;
+      block.rows = 1;
+      block.lo = uniform(random, -0.3, 0.05);
+      block.hi = block.lo + uniform(random, 0.0, 0.3);
+    } else if (contact) {
       block.kind = BlockKind::kContact;
       block.rows = size.mu > 0.0 ? 3 : 1;
       block.mu = size.mu;
@@ -94,7 +101,7 @@ inline RandomSystem random_system(Random& random, const SystemSize& size) {
       block.softness[row] = uniform(random, size.softness, 20.0 * size.softness);
       block.bias[row] = uniform(random);
       block.impulse[row] = 0.0;
-      block.active_set[row] = contact ? kUnknownSet : std::int8_t{0};
+      block.active_set[row] = contact || motor ? kUnknownSet : std::int8_t{0};
     }
     if (block.has_point_rows) pin(random, block);
     problem.blocks.push_back(block);

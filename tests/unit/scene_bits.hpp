@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/model/joint_fields.hpp"
 #include "core/model/scene.hpp"
 #include "tests/support/paper_settings.hpp"
 
@@ -45,8 +46,8 @@ class SceneBitsWriter {
     if (const auto* box = std::get_if<Box>(&shape)) add(box->half_extents);
   }
   void add(const Effects& e) {
-    for (const bool b :
-         {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution, e.external})
+    for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution,
+                         e.external, e.limits, e.motors})
       add(b);
   }
   void add(const Body& b) {
@@ -80,6 +81,17 @@ class SceneBitsWriter {
       add(hinge->axis_a);
       add(hinge->axis_b);
       add(hinge->angular_compliance);
+    }
+    if (const AngleLimit* limit = angle_limit_of(joint)) {
+      add(limit->across_a);
+      add(limit->across_b);
+    }
+    if (const Limit* limit = limit_of(joint)) {
+      for (const double x : {limit->lower, limit->upper, limit->restitution}) add(x);
+    }
+    if (const Motor* motor = motor_of(joint)) {
+      add(motor->velocity);
+      add(motor->effort);
     }
   }
   SceneBits take() { return std::move(bits_); }

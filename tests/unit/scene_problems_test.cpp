@@ -232,8 +232,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"EffectOfNoKind",
                 R"("friction"],)",
                 R"("friction", "magnetism"],)",
-                {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution "
-                 "or external, not \"magnetism\""}},
+                {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
+                 "external, limits or motors, not \"magnetism\""}},
         BadFile{"EffectOfForcesMissing",
                 R"("shape": {"type": "sphere")",
                 R"("force": [0, 0, 0], "torque": [0, 1, 0], "shape": {"type": "sphere")",
@@ -476,6 +476,52 @@ INSTANTIATE_TEST_SUITE_P(
                 R"("gltf")",
                 {"/format: must be \"substep-scene\", not \"gltf\""}}),
     kind_of);
+
+/// The valid scene with a limit or a motor of its hinge.
+List problems_with(const std::string& part, const std::string& effects) {
+  const std::string axis = R"("axis_b": [0, 0, 1])";
+  return problems_of(with(axis, axis + ", " + part, with(R"("friction"])", effects)));
+}
+
+TEST(SceneProblems, OfLimitsAndMotors) {
+  const std::string across = R"("across_a": [1, 0, 0], "across_b": [1, 0, 0]})";
+  const std::string listed = R"("friction", "limits", "motors"])";
+  const auto limit = [&](const std::string& numbers) {
+    return problems_with(R"("limit": {)" + numbers + ", " + across, listed);
+  };
+  EXPECT_EQ(limit(R"("lower": -1, "upper": 1)"), List{});
+  EXPECT_EQ(limit(R"("lower": 1, "upper": 1)"),
+            List{"/joints/0/limit: upper must be above lower, 1, not 1"});
+  EXPECT_EQ(limit(R"("lower": -4, "upper": 4)"),
+            List{"/joints/0/limit: upper and lower must be less than a full turn apart, not 8 "
+                 "(rad)"});
+  EXPECT_EQ(limit(R"("lower": -1, "upper": 7)"),
+            List{"/joints/0/limit/upper: must be at most 6.3 (rad), not 7"});
+  EXPECT_EQ(limit(R"("lower": 1, "upper": 2)"),
+            List{"/joints/0/limit: the angle starts at 0 (rad), outside 1 to 2"});
+  EXPECT_EQ(
+      limit(R"("lower": -1, "upper": 1, "high": 2)"),
+      List{"/joints/0/limit/high: unknown key (known here: lower, upper, restitution, across_a "
+           "or across_b)"});
+  EXPECT_EQ(limit(R"("lower": -1, "upper": 1, "restitution": 0.5)"),
+            List{"/effects: \"restitution\" is missing, but a limit has a restitution above 0"});
+  EXPECT_EQ(problems_with(R"("limit": {"lower": -1, "upper": 1})", listed),
+            (List{"/joints/0/limit/across_a: missing", "/joints/0/limit/across_b: missing"}));
+  EXPECT_EQ(problems_with(R"("limit": {"upper": 1, "across_a": [0, 0.6, 0.8], )"
+                          R"("across_b": [1, 0, 0]})",
+                          listed),
+            List{"/joints/0/limit: across_a must be perpendicular to the axis: the cosine of their "
+                 "angle is 0.8, which is more than 1e-6"});
+  EXPECT_EQ(problems_with(R"("limit": 3)", listed),
+            List{"/joints/0/limit: must be an object, not 3"});
+  EXPECT_EQ(problems_with(R"("motor": {"velocity": 1, "torque": 0, "force": 3})", listed),
+            (List{"/joints/0/motor/torque: must be above 0 (N m), not 0",
+                  "/joints/0/motor/force: unknown key (known here: velocity or torque)"}));
+  EXPECT_EQ(problems_with(R"("motor": {"torque": 1})", R"("friction"])"),
+            List{"/effects: \"motors\" is missing, but /joints/0/motor is given"});
+  EXPECT_EQ(problems_with(R"("limit": {"upper": 1, )" + across, R"("friction"])"),
+            List{"/effects: \"limits\" is missing, but /joints/0/limit is given"});
+}
 
 }  // namespace
 }  // namespace substep

@@ -93,8 +93,14 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
   scene.recommended.emplace();
   scene.settings.n = 3;  // otherwise they are the recommended ones, and omitted
   scene.carried.emplace().forces.emplace_back();
-  scene.joints.emplace_back(std::get<HingeJoint>(scenes::pendulum().joints[0]));
-  scene.joints.emplace_back(PrismaticJoint{});
+  auto hinge = std::get<HingeJoint>(scenes::pendulum().joints[0]);
+  hinge.limit.emplace();
+  hinge.motor.emplace();
+  scene.joints.emplace_back(hinge);
+  PrismaticJoint slide;
+  slide.limit.emplace();
+  slide.motor.emplace();
+  scene.joints.emplace_back(slide);
   scene.joints.emplace_back(WeldJoint{});
   scene.joints.emplace_back(DistanceJoint{});
   const Json json = Json::parse(write_scene(scene), nullptr, false);
@@ -117,6 +123,10 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
       {"/$defs/shape/oneOf/0", "/bodies/21/shape"},
       {"/$defs/shape/oneOf/1", "/bodies/1/shape"},
       {"/$defs/shape/oneOf/2", "/bodies/0/shape"},
+      {"/$defs/angle_limit", joint(3) + "/limit"},
+      {"/$defs/angular_motor", joint(3) + "/motor"},
+      {"/$defs/travel_limit", joint(2) + "/limit"},
+      {"/$defs/linear_motor", joint(2) + "/motor"},
       {"/$defs/joint/oneOf/0", "/joints/0"},
       {"/$defs/joint/oneOf/1", joint(3)},
       {"/$defs/joint/oneOf/2", joint(2)},

@@ -16,7 +16,7 @@ std::vector<Eigen::VectorXd> enumerate(const RandomSystem& problem) {
   const auto n = d.q.size();
   std::vector<Eigen::Index> boxed;
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (problem.blocks[d.rows[static_cast<std::size_t>(i)].block].is_contact()) boxed.push_back(i);
+    if (problem.blocks[d.rows[static_cast<std::size_t>(i)].block].is_bounded()) boxed.push_back(i);
   }
   int sets = 1;
   for (std::size_t i = 0; i < boxed.size(); ++i) sets *= 3;
@@ -34,7 +34,8 @@ std::vector<Eigen::VectorXd> enumerate(const RandomSystem& problem) {
       if (state == 0) continue;
       M.row(i).setZero();
       M(i, i) = 1.0;
-      rhs[i] = 0.0;
+      const Block& block = problem.blocks[row.block];
+      rhs[i] = row.row > 0 ? 0.0 : state < 0 ? block.lo : std::min(block.hi, 1e9);
       if (row.row > 0) M(i, i - row.row) = -state * problem.blocks[row.block].mu;
     }
     const Eigen::VectorXd x = M.partialPivLu().solve(rhs);
@@ -43,11 +44,11 @@ std::vector<Eigen::VectorXd> enumerate(const RandomSystem& problem) {
     constexpr double kSlack = 1e-9;
     for (const Eigen::Index i : boxed) {
       const Dense::Row row = d.rows[static_cast<std::size_t>(i)];
+      const Block& block = problem.blocks[row.block];
       const int state = set[static_cast<std::size_t>(i)];
-      const double hi =
-          row.row == 0 ? kUnbounded : problem.blocks[row.block].mu * std::max(0.0, x[i - row.row]);
-      const double lo = row.row == 0 ? 0.0 : -hi;
-      if (row.row == 0 && state > 0) valid = false;  // there is no upper bound
+      const double hi = row.row == 0 ? block.hi : block.mu * std::max(0.0, x[i - row.row]);
+      const double lo = row.row == 0 ? block.lo : -hi;
+      if (hi == kUnbounded && state > 0) valid = false;  // there is no upper bound
       if (state == 0 && (x[i] < lo - kSlack || x[i] > hi + kSlack)) valid = false;
       if (hi > lo && state < 0 && w[i] < -kSlack) valid = false;
       if (hi > lo && state > 0 && w[i] > kSlack) valid = false;
@@ -76,6 +77,30 @@ TEST_P(EverySolver, MatchesTheEnumeratedSolutionWithoutFriction) {
     EXPECT_LT((impulses(problem) - solutions.front()).norm(), 1e-7) << "trial " << trial;
     EXPECT_LT(lcp_residual(problem.system()), 1e-8);
   }
+}
+
+TEST_P(EverySolver, MatchesTheEnumeratedSolutionWithMotors) {
+  Random random(18);
+  const auto solver = make_solver(GetParam());
+  int at_lo = 0;
+  int at_hi = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    RandomSystem problem = random_system(
+        random, {.joints = trial % 3, .contacts = trial % 3, .motors = 1 + trial % 3});
+    const auto solutions = enumerate(problem);
+    ASSERT_FALSE(solutions.empty());
+    EXPECT_EQ(solver->solve(problem.system(), settings_for(GetParam())).status,
+              SolveStatus::kSolved);
+    EXPECT_LT((impulses(problem) - solutions.front()).norm(), 1e-7) << "trial " << trial;
+    EXPECT_LT(lcp_residual(problem.system()), 1e-8);
+    for (const Block& block : problem.blocks) {
+      if (!block.is_motor()) continue;
+      at_lo += block.impulse[0] == block.lo ? 1 : 0;
+      at_hi += block.impulse[0] == block.hi ? 1 : 0;
+    }
+  }
+  EXPECT_GT(at_lo, 50);
+  EXPECT_GT(at_hi, 50);
 }
 
 TEST_P(EverySolver, MatchesAnEnumeratedSolutionWithFriction) {

@@ -16,6 +16,17 @@ Scene edition_of(const Scene& scene, const State& state, const Settings& setting
   Effects& effects = out.effects;
   disable_dependents(effects);
   if (!effects.joints) out.joints.clear();
+  for (Joint& joint : out.joints) {
+    std::visit(
+        [&](auto& own) {
+          if constexpr (requires { own.limit; }) {
+            if (!effects.limits) own.limit.reset();
+            if (!effects.motors) own.motor.reset();
+            if (own.limit && !effects.restitution) own.limit->restitution = 0.0;
+          }
+        },
+        joint);
+  }
   for (Body& body : out.bodies) {
     if (!effects.friction) body.friction = 0.0;
     if (!effects.restitution) body.restitution = 0.0;

@@ -92,7 +92,7 @@ class EventWriter {
     for (std::size_t i = 0; i < kEffects.size(); ++i) {
       bits |= (effects.*kEffects[i].member ? 1U : 0U) << i;
     }
-    out_.bytes.push_back(static_cast<std::uint8_t>(bits));
+    out_.whole(bits);
   }
   void write(std::int64_t frame, const Pull& pull) {
     const bool moved = held_ && held_->body == pull.body && held_->anchor == pull.anchor;
@@ -179,7 +179,7 @@ class EventReader {
   }
   Effects effects() {
     Effects effects;
-    const unsigned bits = in_.byte();
+    const std::uint64_t bits = in_.whole();
     for (std::size_t i = 0; i < kEffects.size(); ++i) {
       effects.*kEffects[i].member = (bits >> i & 1U) != 0;
     }

@@ -39,17 +39,16 @@ struct Block {
   // further rows have no linear part and J_b = -J_a, whichever side moves. Solvers rely on this,
   // and only J_a of the further rows is stored; see gradient(). All other blocks store J_a and J_b.
   bool has_point_rows = false;
-  std::int8_t position_rows =
-      0;                // not of a contact: number of positional rows, before angular ones
-  bool seeded = false;  // the block existed in the last sub-step: impulse is its seed
-  // Contact or limit.
+  std::int8_t position_rows = 0;  // number of positional rows, which precede the angular ones
+  bool seeded = false;            // the block existed in the last sub-step: impulse is its seed
+  // Of a contact or a limit:
   bool was_closed = false;           // carried a force in the last sub-step
   bool awaits = false;               // open, it closes at the end of the sub-step or later
   bool soft = false;                 // a spring
   double restitution = 0.0;          // limit [-]
   std::int8_t active_set[kMaxRows];  // BPP: -1 at lo, 0 free (always for joints), +1 at hi
-  // Bounds of the impulse of row 0, not read for a joint, which has none: 0 and infinity for a contact
-  // or a limit, those of its torque for a motor [N s or N m s].
+  // Bounds of the impulse of row 0: 0 and infinity for a contact or a limit, those of its effort
+  // for a motor; not read for a joint [N s or N m s].
   double lo = 0.0;
   double hi = kUnbounded;
 

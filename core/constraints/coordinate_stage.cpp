@@ -117,7 +117,7 @@ Block& CoordinateStage::place(const Placed& placed, const State& state, std::spa
   block.body_b = joint.b;
   block.a = moving(joint.a);
   block.b = moving(joint.b);
-  block.awaits = block.soft = false;
+  block.awaits = block.soft = block.was_closed = block.seeded = false;
   block.curved = block.spring_ahead[0] = 0.0;
   block.mu = 0.0;
   for_each_coordinate([&]<class Rows>(Rows) {
@@ -171,11 +171,15 @@ SweptContacts::Found CoordinateStage::sweep(const SweptContacts::Sweep& sweep, s
     const double gap = gap_at(has_row ? sweep.dt : sweep.until);
     if (has_row) {
       Block& row = blocks.all()[placed.row];
-      const double allowed = SweptContacts::kAllowedOverlap * placed.width;
-      if (gap > std::min(start.phi[0], 0.0) - allowed) return;
+      const double floor =
+          std::min(start.phi[0], 0.0) - SweptContacts::kAllowedOverlap * placed.width;
+      if (gap > floor) return;
+      const auto above_floor = [&](double time) { return gap_at(time) - floor; };
+      earliest_ =
+          std::min(earliest_, closing_time(above_floor, start.phi[0] - floor, 0.0, gap - floor,
+                                           sweep.dt, kRounding * placed.width));
       row.curved = gap - (row.phi[0] + sweep.dt * normal_speed(row, sweep.w));
       all = std::max(all, Found::kOverlaps);
-      earliest_ = 0.0;
       return;
     }
     if (gap >= 0.0 || start.phi[0] <= 0.0) return;

@@ -10,7 +10,7 @@ namespace substep {
 // with u and w fixed in a, v1 fixed in b. The second holds where the hinge does: u . v1 = 0.
 
 /// The angle of a hinge as one row: phi = theta - lower [rad]. For the upper bound u is reversed,
-/// which reverses the angle. The functions are documented in JointRows.
+/// which reverses the angle. The functions are documented in PoseRows.
 struct HingeAngle {
   using Owner = HingeJoint;
 

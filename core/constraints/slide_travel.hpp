@@ -6,7 +6,7 @@ namespace substep {
 
 /// The travel of a slide as one row: phi = v . d - lower [m], like the rows of the joint, with v
 /// along the axis instead of across it. For the upper bound v is reversed. The functions are
-/// documented in JointRows.
+/// documented in PoseRows.
 struct SlideTravel {
   using Owner = PrismaticJoint;
 

@@ -19,7 +19,7 @@ struct StoredForce {
   double rate_change[kMaxRows] = {};  // of the rate [N/s^2 or N m/s^2]
   double rate_age = 0.0;              // age of the rate relative to lambda [s]
   double elastic[kMaxRows] = {};      // per row, under the soft drift law: Block::elastic [m, rad]
-  std::int8_t active_set[kMaxRows] = {};  // per row of contacts: as Block::active_set
+  std::int8_t active_set[kMaxRows] = {};  // per bounded row: as Block::active_set
 };
 
 /// The last sub-step of a body whose island has its own sub-steps.

@@ -93,7 +93,9 @@ struct Simulator::Impl {
   bool solve(Substep& sub, FrameReport& report);
   void seed(const Substep& sub);
   void set_bias(Substep& sub, FrameReport& report);
-  void drive_motors(const Substep& sub) const;  // their speeds and bounds
+  void drive_motors(const Substep& sub) const;
+  /// Its speed, and its bounds for an impulse of that duration [s].
+  void set_motor(Block& row, double time) const;
   bool solve_rows(Substep& sub, FrameReport& report);
   void set_softness(const Substep& sub, std::span<Block> rows) const;
   /// Repeats a solve until joints hold at the end. @param system its u* is u_star, by: its solver
@@ -194,6 +196,7 @@ struct Simulator::Impl {
   /// joints that did not close, 0 if nothing reads it [1/s^2]
   double watch_substep(const Substep& sub);
   bool is_at_rest(std::span<const int> island) const;
+  bool is_driven(std::span<const int> island) const;
   void put_to_rest(std::span<const int> island);
   void keep_forces_at_rest();
   void time_rest();

@@ -34,7 +34,7 @@ void reset_row(Block& block) {
   }
 }
 
-// Springs keep their speed; a grab and a motor exert no impulse.
+// Springs keep their speed, a grab exerts no impulse.
 void set_joint(std::span<const InverseMass> inverse_mass, std::span<const Vec6> u, Block& joint) {
   if (joint.is_motor()) return;
   double speed[kMaxRows];
@@ -88,7 +88,7 @@ bool Simulator::Impl::solve_until_impact(Substep& sub, FrameReport& report) {
 }
 
 /// Speed that the forces of a whole sub-step give to the bodies of a contact [m/s] or a limit
-/// [rad/s].
+/// [rad/s or m/s].
 double Simulator::Impl::speed_in_substep(const Substep& sub, const Block& block) const {
   if (!block.is_contact()) return speed_by_forces(sub, block);
   return speeds_of(block, gain) * sub.planned_dt / impulse_time_of(sub, block);
@@ -106,7 +106,8 @@ bool Simulator::Impl::is_fast(const Substep& sub, const Block& block, double app
 
 // What rests has no approach before the forces.
 bool Simulator::Impl::arrives(const Substep& sub, const Block& block) const {
-  return !block.soft && is_fast(sub, block, -normal_speed(block, sub.u_before));
+  if (block.soft || (block.is_coordinate() && block.was_closed)) return false;
+  return is_fast(sub, block, -normal_speed(block, sub.u_before));
 }
 
 /// The half width of the narrower shape [m]; its measure for a limit [rad or m].
@@ -115,7 +116,7 @@ double Simulator::Impl::width_of(const Block& block) const {
                             : coordinates->width_of(block);
 }
 
-/// The gap below which bodies touch [m], or a limit is closed [rad].
+/// The gap below which bodies touch [m], or a limit is closed [rad or m].
 double Simulator::Impl::touching(const Block& block) const {
   return SweptContacts::kAllowedOverlap * width_of(block);
 }
@@ -182,11 +183,12 @@ SweptContacts::Found Simulator::Impl::settle_waiting(const Substep& sub, std::si
   return left;
 }
 
-// What joints and resting contacts change of the velocities u at the start.
+// What joints, motors and resting contacts change of the velocities u at the start.
 void Simulator::Impl::set_reactions(const Substep& sub, std::span<const Vec6> u,
                                     std::span<Block> rows) {
   for (Block& block : rows) {
     reset_row(block);
+    if (block.is_motor()) set_motor(block, impulse_time_of(sub, block) - 0.5 * sub.dt);
     if (!block.is_unilateral()) {
       set_joint(sub.inverse_mass, u, block);
       continue;

@@ -142,7 +142,9 @@ bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
   if (forces_are_stored(sub)) seed(sub);
   if (begins_with_impact) close_struck(sub);
   set_bias(sub, report);
-  if (holds_grab(sub)) soften_grab(*grab, sub.dt, sub.rows.back());
+  if (holds_grab(sub)) {  // contacts and limits found along the motion follow its rows
+    soften_grab(*grab, sub.dt, *std::find_if(sub.rows.begin(), sub.rows.end(), is_grab));
+  }
   System system{sub.rows, sub.inverse_mass,     state.u, sub.u_before, sub.dt,
                 sub.R_WB, scene->regularisation};
   system.force_time = sub.impulse_time;
@@ -191,12 +193,15 @@ void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
 void Simulator::Impl::drive_motors(const Substep& sub) const {
   if (!scene->effects.motors) return;
   for (Block& block : sub.rows) {
-    if (!block.is_motor()) continue;
-    const Motor& motor = coordinates->motor(block);
-    block.bias[0] = -motor.velocity;
-    block.hi = motor.effort * impulse_time_of(sub, block);
-    block.lo = -block.hi;
+    if (block.is_motor()) set_motor(block, impulse_time_of(sub, block));
   }
+}
+
+void Simulator::Impl::set_motor(Block& row, double time) const {
+  const Motor& motor = coordinates->motor(row);
+  row.bias[0] = -motor.velocity;
+  row.hi = motor.effort * time;
+  row.lo = -row.hi;
 }
 
 void Simulator::Impl::count_work(const Substep& sub, const SolveReport& solved,

@@ -70,6 +70,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, bool shortens, FrameReport& repo
   for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = state.u[i] - sub.u_before[i];
   lowered = 0;
   lowered_to = 1.0;
+  if (coordinates) seed(sub);  // whether a limit rests is known from its last force
   if (!strike(sub, report)) return false;
   const int lowered_at_start = lowered;
   const double lowered_at_start_to = lowered_to;

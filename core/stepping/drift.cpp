@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "core/constraints/contact.hpp"
+#include "core/constraints/coordinate_stage.hpp"
 #include "core/constraints/joint_rows.hpp"
 #include "core/forces/applied_forces.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/stepping/compliance.hpp"
 
 namespace substep {
@@ -91,21 +93,59 @@ double speeds_of(const Block& row, std::span<const Vec6> u) {
   return speed;
 }
 
-// A force m g turns a body of the radius of gyration k that hangs on an arm d by
+namespace {
+
+/// Velocities that the applied forces give to a body in a second, world [m/s, rad/s].
+Vec6 applied_acceleration(const Substep& sub, std::size_t body) {
+  Vec6 a = Vec6::Zero();
+  for_each_force(sub.scene->effects, [&](auto force) {
+    force.accelerate(*sub.scene, sub.scene->bodies[body], sub.inertia_inverse[body], sub.R_WB[body],
+                     1.0, a);
+  });
+  return a;
+}
+
+/// Largest force and torque of the motors on a body.
+struct Efforts {
+  double force = 0.0;   // [N]
+  double torque = 0.0;  // [N m]
+};
+Efforts efforts_on(const Substep& sub, int body) {
+  Efforts sum;
+  for (const Block& row : sub.rows) {
+    if (!row.is_motor() || (row.a != body && row.b != body)) continue;
+    const Motor& motor = *motor_of(sub.scene->joints[index(CoordinateStage::joint_of(row.id))]);
+    (is_angle(row) ? sum.torque : sum.force) += motor.effort;
+  }
+  return sum;
+}
+
+// Of a body that rests on a limit. A force m g turns a body of the radius of gyration k about the
+// axis, which hangs on an arm d, by
 //   g d/(k^2 + d^2) <= g/(2 k).
 // In a linkage whose bodies rotate, angular accelerations are of the size of omega^2.
+double largest_acceleration(const Substep& sub, const Block& row, bool of_a) {
+  const int i = of_a ? row.a : row.b;
+  const std::size_t at = index(i);
+  const Body& body = sub.scene->bodies[at];
+  const Vec6 applied = applied_acceleration(sub, at);
+  const Efforts motors = efforts_on(sub, i);
+  const double turning = sub.u_before[at].tail<3>().squaredNorm();
+  const double pushed = applied.head<3>().norm() + motors.force / body.mass;
+  if (!is_angle(row)) return pushed + turning * (of_a ? row.r_a : row.r_b).norm();
+  const Vec3 axis = sub.R_WB[at].transpose() * row.axis;
+  const double moment = axis.dot(body.inertia.cwiseProduct(axis));
+  return pushed / (2.0 * std::sqrt(moment / body.mass)) + motors.torque / moment +
+         std::abs(applied.tail<3>().dot(row.axis)) + turning;
+}
+
+}  // namespace
+
 double speed_by_forces(const Substep& sub, const Block& row) {
   if (row.is_contact()) return speeds_of(row, sub.gain);
   double acceleration = 0.0;
   for (const bool of_a : {true, false}) {
-    const int i = of_a ? row.a : row.b;
-    if (i < 0) continue;
-    const Body& body = sub.scene->bodies[index(i)];
-    const double gyration = std::sqrt(body.inertia.minCoeff() / body.mass);
-    const double turning = sub.u_before[index(i)].tail<3>().squaredNorm();
-    const double by_forces = acceleration_bound(*sub.scene, body);
-    acceleration += is_angle(row) ? by_forces / (2.0 * gyration) + turning
-                                  : by_forces + turning * (of_a ? row.r_a : row.r_b).norm();
+    if ((of_a ? row.a : row.b) >= 0) acceleration += largest_acceleration(sub, row, of_a);
   }
   return sub.planned_dt * acceleration;
 }

@@ -40,11 +40,12 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
                            double regularisation);
 
 /// Sum of the speeds of the bodies of a contact, of their centres of mass [m/s], or of a limit, of
-/// their rotation [rad/s]. @param u per body: velocities, or their changes by forces [m/s, rad/s]
+/// their rotation or centres [rad/s or m/s]. @param u per body: velocities, or their changes by
+/// forces [m/s, rad/s]
 double speeds_of(const Block& row, std::span<const Vec6> u);
 
 /// The largest speed that the forces of a sub-step cause along the row of a contact [m/s], or of a
-/// limit, whose body the joints push too [rad/s].
+/// limit, whose bodies motors and joints push too [rad/s or m/s].
 double speed_by_forces(const Substep& sub, const Block& row);
 
 /// For contacts that are found along the motion: an overlap is not corrected by velocities, and the

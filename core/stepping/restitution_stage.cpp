@@ -33,6 +33,7 @@ double RestitutionStage::restitution_of(const Block& contact) const {
 RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<const Vec6> u,
                                                   const Block& block) const {
   if (!block.is_unilateral() || block.awaits || restitution_of(block) == 0.0) return {};
+  if (block.is_coordinate() && block.was_closed) return {};  // it rests
   // What returns within the sub-step rests.
   const double least = block.is_contact() ? scene_.contact.restitution_speed
                                           : speed_by_forces(sub, block) / restitution_of(block);

@@ -219,6 +219,20 @@ TEST(Events, TooManyForALinkAreReplacedByTheEditedScene) {
   EXPECT_TRUE(is_own(h.app->link_scene())) << "the link of an edited scene";
 }
 
+TEST(Events, EverySwitchedEffectIsReadBack) {
+  const auto scene = shipped("swinging_box");
+  for (const EffectEntry& effect : kEffects) {
+    Effects effects;
+    effects.*effect.member = true;
+    const RunEvent event{2, effects};
+    std::string message;
+    const auto read =
+        read_events(events_text({&event, 1}, scene->settings), *scene, scene->settings, message);
+    ASSERT_EQ(read.size(), 1U) << effect.name << ": " << message;
+    EXPECT_EQ(std::get<Effects>(read[0].what), effects) << effect.name;
+  }
+}
+
 TEST(Events, InvalidTextIsReported) {
   const auto scene = shipped("swinging_box");
   const Settings settings = scene->settings;

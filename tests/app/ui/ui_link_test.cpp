@@ -5,6 +5,7 @@
 #include "core/io/scene_writer.hpp"
 #include "core/lab/experiment_run.hpp"
 #include "core/model/effects.hpp"
+#include "core/model/scene_builder.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 #include "tests/unit/unusual_settings.hpp"
 
@@ -197,6 +198,25 @@ TEST(Link, OfAnEditedSceneIsOpened) {
       session.go_to(10);
       EXPECT_EQ(h.app->link().find("events="), std::string::npos) << "before the edit";
     }
+  }
+}
+
+TEST(Link, OfASceneWithoutItsLimitsOrMotorsIsOpened) {
+  SceneBuilder builder("arm");
+  const int rod = builder.add_body(Box{{0.5, 0.05, 0.05}}, 1.0, {0.5, 0.0, 0.0});
+  const int hinge = builder.add_hinge(rod, kWorld, Vec3::Zero(), Vec3::UnitZ());
+  builder.limit(hinge, -1.0, 1.0, 0.5);
+  builder.drive(hinge, 2.0, 1.0);
+  for (const EffectEntry& effect : kEffects) {
+    Session session(builder.build());
+    for (int i = 0; i < 5; ++i) session.step();
+    Effects effects = session.scene().effects;
+    if (!(effects.*effect.member)) continue;
+    effects.*effect.member = false;
+    session.set_effects(effects);
+    ASSERT_NE(session.edition(), nullptr) << effect.name;
+    const SceneResult read = read_scene(write_scene(*session.edition()->start));
+    ASSERT_TRUE(read.scene) << effect.name << ": " << to_string(read.problems.front());
   }
 }
 

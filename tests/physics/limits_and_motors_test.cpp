@@ -483,6 +483,24 @@ TEST(Motors, RampUpAtTheirLargestTorque) {
   }
 }
 
+// A motor of velocity 0 is a brake: the speed falls by T t/I, whatever its direction.
+TEST(Motors, BrakeInBothDirections) {
+  constexpr double kTorque = 0.5;
+  for (const double speed : {-3.0, 3.0}) {
+    SceneBuilder builder = rod(speed, false);
+    builder.drive(0, 0.0, kTorque);
+    const Scene scene = *builder.build();
+    const double slower = kTorque / moment_about_hinge(scene) * (speed > 0.0 ? -1.0 : 1.0);
+    for (const JointMethod& method : joint_methods()) {
+      const double error =
+          error_after(scene, method.settings, 0.5, [&](const State& state, double t) {
+            return std::abs(wrapped(angle_of_rod(state) - speed * t - 0.5 * slower * t * t));
+          });
+      EXPECT_LT(error, method.order == 1 ? 0.01 : 1e-3) << method.name << " " << speed;
+    }
+  }
+}
+
 TEST(Motors, StallUnderALoadThatIsTooLarge) {
   const double load = kRodMass * kGravity * kRodArm;
   for (const JointMethod& method : joint_methods()) {

@@ -178,7 +178,7 @@ Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& 
   in.number("compliance", kComplianceRange, j.compliance, kOptional);
   std::visit([&](auto& own) { own.own_fields(own, OwnFieldReader{in}); }, joint);
   if (problems.size() == before) {
-    if (const auto fault = direction_fault(joint)) in.problem(fault->key, fault->message);
+    if (const auto fault = joint_fault(joint)) in.problem(fault->key, fault->message);
   }
   in.finish();
   return joint;

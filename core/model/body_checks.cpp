@@ -136,7 +136,7 @@ std::optional<JointFault> limit_fault(const JointAxes& axes, const AngleLimit& l
 
 }  // namespace
 
-std::optional<JointFault> direction_fault(const Joint& joint) {
+std::optional<JointFault> joint_fault(const Joint& joint) {
   const auto axes = axes_of(joint);
   if (!axes) return std::nullopt;
   if (const Limit* limit = limit_of(joint); limit != nullptr && !(limit->lower < limit->upper)) {
@@ -205,7 +205,7 @@ void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Data
   check_numbers(j.anchor_b, kPositionRange, place.at("anchor_b"), problems);
   check_number(j.compliance, kComplianceRange, place.at("compliance"), problems);
   std::visit([&](const auto& own) { own.own_fields(own, OwnFieldCheck{place, problems}); }, joint);
-  if (const auto fault = direction_fault(joint)) {
+  if (const auto fault = joint_fault(joint)) {
     problems.push_back({place.at(fault->key).pointer(), fault->message});
   }
 }

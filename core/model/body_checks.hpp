@@ -45,9 +45,9 @@ struct JointFault {
 /// The fault of the body references, "a" or "b". @param a, b indices into bodies, or kWorld; any
 /// other number is a fault
 std::optional<JointFault> side_fault(const std::vector<Body>& bodies, int a, int b);
-/// The fault of a direction that is not perpendicular to its axis, "across_a" or "across_b", or of
-/// a "limit".
-std::optional<JointFault> direction_fault(const Joint& joint);
+/// The first fault of members that depend on each other: "across_a" or "across_b" if it is not
+/// perpendicular to its axis, "limit" if its bounds or directions do not fit.
+std::optional<JointFault> joint_fault(const Joint& joint);
 
 /// Adds all problems of one body. @param place of the body, such as "/bodies/3"
 void check_body(const Body& body, const DataPlace& place, Problems& problems);

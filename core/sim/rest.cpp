@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/collision/contact_point.hpp"
-#include "core/model/joint_fields.hpp"
 #include "core/sim/simulator_impl.hpp"
 
 namespace substep {
@@ -21,20 +20,11 @@ double half_width(const Body& body) {
 }  // namespace
 
 bool Simulator::Impl::is_at_rest(std::span<const int> island) const {
-  if (!settings.sleep || state.rest.empty() || is_driven(island)) return false;
+  if (!settings.sleep || state.rest.empty()) return false;
   return std::all_of(island.begin(), island.end(), [&](int body) {
     const bool held = grab && grab->body == body;
-    return !held && state.rest[index(body)] > kRestTime - 0.5 * scene->frame;
-  });
-}
-
-// A motor may be slow.
-bool Simulator::Impl::is_driven(std::span<const int> island) const {
-  if (!scene->effects.motors) return false;
-  return std::any_of(scene->joints.begin(), scene->joints.end(), [&](const Joint& joint) {
-    const Motor* motor = motor_of(joint);
-    return motor != nullptr && motor->velocity != 0.0 &&
-           std::find(island.begin(), island.end(), base(joint).a) != island.end();
+    const bool driven = !current.motors_on.empty() && current.motors_on[index(body)].moves;
+    return !held && !driven && state.rest[index(body)] > kRestTime - 0.5 * scene->frame;
   });
 }
 

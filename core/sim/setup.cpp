@@ -39,6 +39,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
                                (contact ? 4 * n + 16 : 0) + 1;
   blocks.reserve(n_blocks);
   solver->reserve(n, n_blocks);
+  if (restitution) restitution->reserve(n_blocks);
   state.forces.reserve(n_blocks);
   before_frame.forces.reserve(n_blocks);
   before_frame.k.reserve(n);

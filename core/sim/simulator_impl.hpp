@@ -196,7 +196,6 @@ struct Simulator::Impl {
   /// joints that did not close, 0 if nothing reads it [1/s^2]
   double watch_substep(const Substep& sub);
   bool is_at_rest(std::span<const int> island) const;
-  bool is_driven(std::span<const int> island) const;
   void put_to_rest(std::span<const int> island);
   void keep_forces_at_rest();
   void time_rest();

@@ -4,10 +4,8 @@
 #include <cmath>
 
 #include "core/constraints/contact.hpp"
-#include "core/constraints/coordinate_stage.hpp"
 #include "core/constraints/joint_rows.hpp"
 #include "core/forces/applied_forces.hpp"
-#include "core/model/joint_fields.hpp"
 #include "core/stepping/compliance.hpp"
 
 namespace substep {
@@ -105,31 +103,15 @@ Vec6 applied_acceleration(const Substep& sub, std::size_t body) {
   return a;
 }
 
-/// Largest force and torque of the motors on a body.
-struct Efforts {
-  double force = 0.0;   // [N]
-  double torque = 0.0;  // [N m]
-};
-Efforts efforts_on(const Substep& sub, int body) {
-  Efforts sum;
-  for (const Block& row : sub.rows) {
-    if (!row.is_motor() || (row.a != body && row.b != body)) continue;
-    const Motor& motor = *motor_of(sub.scene->joints[index(CoordinateStage::joint_of(row.id))]);
-    (is_angle(row) ? sum.torque : sum.force) += motor.effort;
-  }
-  return sum;
-}
-
 // Of a body that rests on a limit. A force m g turns a body of the radius of gyration k about the
 // axis, which hangs on an arm d, by
 //   g d/(k^2 + d^2) <= g/(2 k).
 // In a linkage whose bodies rotate, angular accelerations are of the size of omega^2.
 double largest_acceleration(const Substep& sub, const Block& row, bool of_a) {
-  const int i = of_a ? row.a : row.b;
-  const std::size_t at = index(i);
+  const std::size_t at = index(of_a ? row.a : row.b);
   const Body& body = sub.scene->bodies[at];
   const Vec6 applied = applied_acceleration(sub, at);
-  const Efforts motors = efforts_on(sub, i);
+  const MotorsOnBody motors = sub.motors_on.empty() ? MotorsOnBody{} : sub.motors_on[at];
   const double turning = sub.u_before[at].tail<3>().squaredNorm();
   const double pushed = applied.head<3>().norm() + motors.force / body.mass;
   if (!is_angle(row)) return pushed + turning * (of_a ? row.r_a : row.r_b).norm();

@@ -20,6 +20,11 @@ class RestitutionStage {
   static constexpr double kSimultaneous = 1e-3;
 
   explicit RestitutionStage(const Scene& scene) : scene_(scene), impact_(scene.bodies.size()) {}
+  /// Reserves memory, so that an impact does not allocate.
+  void reserve(std::size_t blocks) {
+    hits_.reserve(blocks);
+    struck_.reserve(blocks);
+  }
 
   /// The coefficient e of a contact: the larger one of its bodies.
   [[nodiscard]] double restitution_of(const Block& contact) const;

@@ -8,7 +8,29 @@
 
 namespace substep {
 
-Substep::Substep(const Scene& of) : scene(&of), inertia_inverse(inertia_inverses(of)) {
+namespace {
+
+std::vector<MotorsOnBody> motors_on_bodies(const Scene& scene) {
+  std::vector<MotorsOnBody> on;
+  if (!scene.effects.joints || !scene.effects.motors) return on;
+  on.resize(scene.bodies.size());
+  for (const Joint& joint : scene.joints) {
+    const Motor* motor = motor_of(joint);
+    if (motor == nullptr) continue;
+    for (const int body : {base(joint).a, base(joint).b}) {
+      if (body == kWorld) continue;
+      MotorsOnBody& sum = on[index(body)];
+      (axes_of(joint)->slides ? sum.force : sum.torque) += motor->effort;
+      sum.moves = sum.moves || motor->velocity != 0.0;
+    }
+  }
+  return on;
+}
+
+}  // namespace
+
+Substep::Substep(const Scene& of)
+    : scene(&of), inertia_inverse(inertia_inverses(of)), motors_on(motors_on_bodies(of)) {
   has_springs =
       of.effects.joints && std::any_of(of.joints.begin(), of.joints.end(), [](const Joint& joint) {
         return base(joint).compliance > 0.0 || angular_compliance_of(joint).value_or(0.0) > 0.0;

@@ -16,6 +16,13 @@ namespace substep {
 class Solver;
 class TimeIntegrator;
 
+/// What the motors of joints can exert on a body.
+struct MotorsOnBody {
+  double force = 0.0;   // sum of the largest forces [N]
+  double torque = 0.0;  // sum of the largest torques [N m]
+  bool moves = false;   // one of them has a velocity: the body does not stay at rest
+};
+
 /// The data of one sub-step, in the order in which its parts are computed. Vectors hold one element
 /// per body of the scene; those of bodies outside `part` are not updated. State is separate: it
 /// persists.
@@ -27,6 +34,7 @@ struct Substep {
   const Scene* scene;
   bool has_springs = false;                     // compliant joints
   std::vector<InertiaInverse> inertia_inverse;  // M^-1 about the principal axes
+  std::vector<MotorsOnBody> motors_on;          // empty without motors
 
   // The step to take.
   TimeIntegrator* integrator = nullptr;

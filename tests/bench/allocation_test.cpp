@@ -11,6 +11,7 @@
 #include "core/io/scene_reader.hpp"
 #include "core/lab/presets.hpp"
 #include "core/model/names.hpp"
+#include "core/model/scene_builder.hpp"
 #include "core/sim/simulator.hpp"
 #include "scenes/generator/exam.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -68,6 +69,21 @@ TEST(SolversOfTheWholeSubstep, AllocateNothingAfterTheFirstFrame) {
       }
     }
   }
+}
+
+// The first impact too.
+TEST(LimitsAndMotors, AllocateNothingAfterTheFirstFrame) {
+  SceneBuilder builder("arm");
+  int last = kWorld;
+  for (int i = 0; i < 3; ++i) {
+    const int body = builder.add_body(Box{{0.25, 0.04, 0.03}}, 1.0, {0.25 + 0.5 * i, 0.0, 0.0});
+    builder.body(body).collides = false;
+    const int hinge = builder.add_hinge(body, last, {0.5 * i, 0.0, 0.0}, Vec3::UnitZ());
+    builder.limit(hinge, -0.4, 0.6, 0.5);
+    if (i == 2) builder.drive(hinge, 2.0, 1.5);
+    last = body;
+  }
+  EXPECT_EQ(allocated(*builder.build(), substep::Settings{}), 0);
 }
 
 // Predicted contacts, shared sweeps, refinements.

@@ -105,6 +105,26 @@ TEST(Invariance, AMirroredSceneMovesAsItsImage) {
   }
 }
 
+/// Hinges and a slide in space whose limits rebound, and motors.
+Scene limited_linkage() {
+  SceneBuilder builder("limited_linkage");
+  const Vec3 half{0.25, 0.04, 0.03};
+  int last = kWorld;
+  for (int i = 0; i < 4; ++i) {
+    const int body = builder.add_body(Box{half}, 1.0 + i, {0.25 + 0.5 * i, 0.0, 0.0});
+    builder.body(body).collides = false;
+    const Vec3 at{0.5 * i, 0.0, 0.0};
+    const Vec3 axis = i % 2 == 0 ? Vec3(0.0, 0.28, 0.96) : Vec3(0.0, 0.96, -0.28);
+    const int joint = i == 2 ? builder.add_prismatic(body, last, at, Vec3::UnitX())
+                             : builder.add_hinge(body, last, at, axis);
+    builder.limit(joint, -0.02, 0.03, 0.5);
+    if (i != 1) builder.drive(joint, 0.5, 4.0);
+    last = body;
+  }
+  builder.scene().frame = 1.0 / 64.0;
+  return *builder.build();
+}
+
 // Units that are powers of 4 shift exponents only, under square roots too: as no constant of the
 // code has a unit of mass or length, the motion is the same to the last bit.
 TEST(Invariance, TheUnitsOfMassAndLengthDoNotMatter) {
@@ -124,7 +144,9 @@ TEST(Invariance, TheUnitsOfMassAndLengthDoNotMatter) {
   four.n = 4;
   substep::Settings stormer;
   stormer.integrator = Integrator::kStormer;
-  for (Scene scene : scenes::shipped()) {
+  std::vector<Scene> all = scenes::shipped();
+  all.push_back(limited_linkage());
+  for (Scene& scene : all) {
     scene.regularisation = 0.0;  // the same number on rows in 1/kg and in 1/(kg m^2)
     const double seconds = 8.0 * scene.frame;
     for (const substep::Settings& settings :

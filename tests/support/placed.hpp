@@ -69,6 +69,17 @@ inline Scene in_units(Scene scene, double mass, double length, double time = 1.0
           if constexpr (requires { of.angular_compliance; }) {
             of.angular_compliance *= compliance / (length * length);
           }
+          if constexpr (requires { of.limit; }) {
+            const bool slides = of.kSlides;
+            if (of.limit && slides) {
+              of.limit->lower *= length;
+              of.limit->upper *= length;
+            }
+            if (of.motor) {
+              of.motor->velocity *= slides ? speed : 1.0 / time;
+              of.motor->effort *= mass * speed / time * (slides ? 1.0 : length);
+            }
+          }
         },
         joint);
   }

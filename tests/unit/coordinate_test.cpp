@@ -75,7 +75,7 @@ TEST(HingeAngle, MeasuresTheDistanceFromBothBounds) {
   }
 }
 
-// Wherever the hinge is, the nearer bound of a range of almost a full turn is told apart.
+// The distance from each bound is correct in a range of almost a full turn.
 TEST(HingeAngle, DoesNotConfuseTheBoundsOfAWideRange) {
   Random random(3);
   for (int trial = 0; trial < 100; ++trial) {

@@ -115,6 +115,7 @@ void SaddleLdlt::find_least_impulses(std::span<Block> blocks) {
   system.u = u_solved_;
   system.limits = {};
   copy(u_begun_, u_star_);
+  copy(u_begun_, u_solved_);  // solve() sets only those of bodies with rows
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     Block& block = blocks[k];
     std::copy_n(block.bias, kMaxRows, found_[k].given);

@@ -273,8 +273,7 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
   }
   if (reads(s, "pivots") && effects.contact) {
     slider(look, "Pivots", s.pivots, 1, 100, true,
-           "Block pivots of BPP (Judice and Pires 1994) before it pivots single rows, which always "
-           "terminates.");
+           "Block pivots of BPP (Judice and Pires 1994) before its interior-point method.");
   }
   if (effects.gyroscopic) {
     choose(look, "Gyroscopic", kGyroscopics, s.gyroscopic, "How the torque I ω × ω is integrated.");

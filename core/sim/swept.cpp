@@ -200,6 +200,8 @@ bool Simulator::Impl::ends_impact(const Substep& sub, const Block& block) const 
 bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
   parting.clear();
   predict_motions(sub);
+  const bool any_parts = std::any_of(sub.rows.begin(), sub.rows.end(),
+                                     [&](const Block& block) { return parts(block); });
   for (const Block& row : sub.rows) {
     Block& block = parting.append();
     block = row;
@@ -213,7 +215,7 @@ bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
     std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
     const double speed = normal_speed(block, w) - normal_speed(block, shift);
     block.bias[0] = speed + (std::max(row.phi[0], 0.0) + row.curved) / sub.dt;
-    if (!parts(row)) continue;
+    if (!any_parts || row.soft || !(row.phi[0] < 0.0)) continue;
     block.bias[0] -= std::min(-kPartRate * row.phi[0] / sub.dt, kFastestParting * width_of(row));
   }
   Solver& by = impact_solver();

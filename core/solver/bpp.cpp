@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace substep {
@@ -10,8 +11,7 @@ namespace {
 
 constexpr double kTolerance = 1e-11;  // on bounds and complementarity, relative
 constexpr int kPasses = 4;            // refreshes of the friction bounds, the first included
-constexpr int kSinglePivots = 50;     // per solve: Murty's rule terminates; this bounds its time
-constexpr int kSweeps = 100;          // sweeps of the fallback: 25 do not hold a house of cards
+constexpr int kWithoutProgress = 10;   // pivots that do not reduce the infeasible rows
 
 bool any_tight(const Block& block) {
   return std::any_of(block.active_set, block.active_set + block.rows,
@@ -60,7 +60,8 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
   ldlt_.reserve(bodies, blocks);
   friction_bound_.reserve(blocks);
   centre_.reserve(blocks);
-  gauss_seidel_.reserve(bodies, blocks);
+  interior_point_.reserve(blocks);
+  bounds_.reserve(blocks * kMaxRows);
 }
 
 void Bpp::find_active_set(const System& system, const Settings& settings, SolveReport& report) {
@@ -70,24 +71,65 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
     over_limits(system, report);
     return;
   }
-  int single_pivots = 0;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  int passes = kPasses;
+  for (int pass = 0; pass < passes; ++pass) {
     ++report.passes;
     set_friction_bounds(system);
     if (settings.friction_cone == FrictionCone::kCone) soften_sliding(system);
-    for (int step = 0;; ++step) {
-      solve_active_set(system);
-      if (over_limits(system, report)) return;
-      const bool one_only = step >= settings.pivots;
-      if (pivot(system, one_only) == 0) break;
-      ++report.pivots;
-      if (!one_only || ++single_pivots <= kSinglePivots) continue;
-      go_on_with_gauss_seidel(system, settings, report);
-      return;
+    if (!pivot_blocks(system, settings.pivots, report)) {
+      if (report.status == SolveStatus::kOverLimits || !approach(system, report)) return;
+      passes = std::min(passes, pass + 2);  // it costs as much as three of the others
     }
     if (bounds_settled(system)) return;
   }
   report.status = SolveStatus::kUnsettled;
+}
+
+// Infeasible rows may become more, and a set may come again. As in Júdice and Pires (1994) only so
+// many pivots may follow one another that do not reduce the fewest infeasible rows.
+bool Bpp::pivot_blocks(const System& system, int most, SolveReport& report) {
+  int fewest = std::numeric_limits<int>::max();
+  int without_progress = 0;
+  for (int pivots = 0;; ++pivots) {
+    solve_active_set(system);
+    if (over_limits(system, report)) return false;
+    const int infeasible = pivot(system);
+    if (infeasible == 0) return true;
+    ++report.pivots;
+    without_progress = infeasible < fewest ? 0 : without_progress + 1;
+    fewest = std::min(fewest, infeasible);
+    if (pivots >= most || without_progress >= kWithoutProgress) return false;
+  }
+}
+
+// Near the minimum the sets are mostly right, and a pivot or two make the solution exact. Rows that
+// hardly push and hardly separate may be in either; then the point that has been reached is taken.
+bool Bpp::approach(const System& system, SolveReport& report) {
+  constexpr int kPivots = 2;
+  constexpr double kClose = 1e-11;  // relative products of impulses and speeds
+  constexpr double kClosest = 1e-13;
+  bounds_.resize(system.blocks.size() * kMaxRows);
+  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+    const Block& block = system.blocks[i];
+    for (int row = 0; row < block.rows; ++row) {
+      bounds_[i * kMaxRows + index(row)] =
+          row == 0 ? Bounds{block.lo, block.hi} : Bounds{-friction_bound_[i], friction_bound_[i]};
+    }
+  }
+  copy(ldlt_.u_star(), system.u);
+  interior_point_.begin(system, bounds_);
+  bool close = false;
+  for (const double end : {kClose, kClosest}) {
+    close = interior_point_.advance(system, end, ldlt_) || close;
+    if (over_limits(system, report)) return false;
+    if (!close) break;
+    if (pivot_blocks(system, kPivots, report)) return true;
+    if (report.status == SolveStatus::kOverLimits) return false;
+  }
+  interior_point_.settle(system, ldlt_);
+  if (over_limits(system, report)) return false;
+  if (!close) report.status = SolveStatus::kUnsolved;
+  return close;
 }
 
 // The centre's share of w moves into the bias: r (x - x0) + bias = r x + (bias - r x0).
@@ -114,7 +156,6 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
     return {.status = SolveStatus::kOverLimits, .memory_needed = ldlt_.needed_memory()};
   }
   SolveReport report;
-  has_impulses_ = false;
   any_bounded_ = std::any_of(system.blocks.begin(), system.blocks.end(),
                              [](const Block& block) { return block.is_bounded(); });
   if (any_bounded_) start_active_set(system);
@@ -147,32 +188,7 @@ SolveReport Bpp::find_velocities_again(const System& system, const Settings& set
   return report;
 }
 
-// With the w of System, linear in the impulses z, the solution is where
-//   1/2 z (w(z) + w(0))   [J]
-// is minimal within the bounds; it is 0 at z = 0. A badly wrong active set increases it by orders
-// of magnitude.
-bool Bpp::better_than_none(const System& system) const {
-  double energy = 0.0;
-  double speed[kMaxRows];
-  for (const Block& block : system.blocks) {
-    row_speeds(block, ldlt_.u_star(), speed);
-    for (int row = 0; row < block.rows; ++row) {
-      energy += 0.5 * block.impulse[row] * (speed[row] + block.bias[row]);
-    }
-    apply_impulse(block, block.impulse, system.inverse_mass, system.u);
-  }
-  for (const Block& block : system.blocks) {
-    row_speeds(block, system.u, speed);
-    for (int row = 0; row < block.rows; ++row) {
-      const double w = speed[row] + block.softness[row] * block.impulse[row] + block.bias[row];
-      energy += 0.5 * block.impulse[row] * w;
-    }
-  }
-  return energy < 0.0;
-}
-
 std::int64_t Bpp::find_impulses(std::span<Block> blocks) {
-  if (has_impulses_) return 0;
   const std::int64_t before = ldlt_.flops();
   ldlt_.find_impulses(blocks);
   return ldlt_.flops() - before;
@@ -184,50 +200,6 @@ bool Bpp::over_limits(const System& system, SolveReport& report) const {
   report.status = SolveStatus::kOverLimits;
   report.work_needed = work;
   return true;
-}
-
-void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings,
-                                  SolveReport& report) {
-  report.status = SolveStatus::kUnsolved;
-  find_impulses(system.blocks);
-  has_impulses_ = true;
-  for (Block& block : system.blocks) {
-    if (!block.is_bounded()) continue;
-    if (block.rows == 3 && block.sliding > 0.0) {  // it has a cone of its own
-      block.softness[2] = block.softness[1];
-      block.bias[2] -= std::exchange(block.across, 0.0);
-      block.sliding = 0.0;
-    }
-    block.impulse[0] = std::min(block.hi, std::max(block.lo, block.impulse[0]));
-    const double bound = block.mu * block.impulse[0];
-    for (int row = 1; row < block.rows; ++row) {
-      block.impulse[row] = std::min(bound, std::max(-bound, block.impulse[row]));
-    }
-  }
-  const auto restore = [&] { copy(ldlt_.u_star(), system.u); };
-  restore();
-  Settings sweeps = settings;
-  sweeps.iterations = std::max(settings.iterations, kSweeps);
-  sweeps.warm_start = better_than_none(system);
-  restore();
-  const SolveReport swept = gauss_seidel_.solve(system, sweeps);
-  report.flops += swept.flops;
-  if (swept.status == SolveStatus::kOverLimits) {
-    report.status = swept.status;
-    report.work_needed = swept.work_needed;
-  }
-  for (Block& block : system.blocks) {
-    if (!block.is_bounded()) continue;
-    block.active_set[0] = !(block.impulse[0] > block.lo)   ? std::int8_t{-1}
-                          : !(block.impulse[0] < block.hi) ? std::int8_t{1}
-                                                           : std::int8_t{0};
-    for (int row = 1; row < block.rows; ++row) {
-      const double bound = friction_bound(block, row, block.impulse[0]);
-      block.active_set[row] = block.impulse[row] >= bound    ? std::int8_t{1}
-                              : block.impulse[row] <= -bound ? std::int8_t{-1}
-                                                             : std::int8_t{0};
-    }
-  }
 }
 
 // A row active in the last sub-step starts active. A new contact starts free if the bodies would
@@ -307,9 +279,8 @@ void Bpp::move(std::span<Block> blocks, const Move& move) {
   set = move.set;
 }
 
-int Bpp::pivot(const System& system, bool one_only) {
+int Bpp::pivot(const System& system) {
   int wrong = 0;
-  Move last;
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
     if (!block.is_bounded()) continue;
@@ -332,14 +303,9 @@ int Bpp::pivot(const System& system, bool one_only) {
       }
       if (set == block.active_set[row]) continue;
       ++wrong;
-      if (one_only) {
-        last = {i, row, set};
-      } else {
-        move(system.blocks, {i, row, set});
-      }
+      move(system.blocks, {i, row, set});
     }
   }
-  if (one_only && wrong > 0) move(system.blocks, last);
   return wrong;
 }
 

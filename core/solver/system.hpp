@@ -85,8 +85,7 @@ struct System {
 enum class SolveStatus : std::uint8_t {
   kSolved,     // BPP, Newton: complementary within tolerance. PGS, XPBD: all sweeps done
   kUnsettled,  // BPP: complementary, but friction bounds not converged; the next sub-step continues
-  kUnsolved,   // BPP: pivot limit reached; Gauss-Seidel took over. Newton: not converged within its
-               // steps
+  kUnsolved,   // BPP: its interior-point method did not converge; Newton: not within its steps
   kOverLimits,  // System::limits exceeded; impulses and velocities are invalid
 };
 

@@ -18,10 +18,12 @@ constexpr double kRounding = 1e-11;  // of the coordinate where a limit closes
 
 using Acts = CoordinateStage::Acts;
 
-/// Distinct from the ids of joints, contacts and grabs.
+/// Distinct from the ids of joints, contacts and grabs: bit 62, the joint from bit 2 on, and the
+/// part of it in bits 61, 1 and 0.
 std::uint64_t id_of(std::size_t joint, Acts part) {
-  return (1ULL << 62U) | (static_cast<std::uint64_t>(joint) << 2U) |
-         static_cast<std::uint64_t>(part);
+  const auto number = static_cast<std::uint64_t>(part);
+  return (1ULL << 62U) | ((number >> 2U) << 61U) | (static_cast<std::uint64_t>(joint) << 2U) |
+         (number & 3U);
 }
 
 /// Largest change of a coordinate in a motion [rad or m].
@@ -80,16 +82,21 @@ CoordinateStage::CoordinateStage(const Scene& scene) : scene_(scene) {
       if (own->drive && scene.effects.drives) {
         add(Acts::kDrive, Rows::geometry(*own, *own->drive));
       }
+      if (own->friction && scene.effects.joint_friction) {
+        add(Acts::kFriction, Rows::geometry(*own));
+      }
     });
   }
   first_.push_back(placed_.size());
 }
 
 int CoordinateStage::joint_of(std::uint64_t id) {
-  return static_cast<int>((id & ~(3ULL << 62U)) >> 2U);
+  return static_cast<int>((id & ~(7ULL << 61U)) >> 2U);
 }
 
-Acts CoordinateStage::acts(std::uint64_t id) { return static_cast<Acts>(id & 3U); }
+Acts CoordinateStage::acts(std::uint64_t id) {
+  return static_cast<Acts>(((id >> 61U) & 1U) << 2U | (id & 3U));
+}
 
 const Motor& CoordinateStage::motor(const Block& row) const {
   return *motor_of(scene_.joints[index(joint_of(row.id))]);
@@ -97,6 +104,10 @@ const Motor& CoordinateStage::motor(const Block& row) const {
 
 const Drive& CoordinateStage::drive(const Block& row) const {
   return *drive_of(scene_.joints[index(joint_of(row.id))]);
+}
+
+double CoordinateStage::friction(const Block& row) const {
+  return *friction_of(scene_.joints[index(joint_of(row.id))]);
 }
 
 double CoordinateStage::width_of(const Block& row) const {
@@ -133,7 +144,7 @@ Block& CoordinateStage::place(const Placed& placed, const State& state, std::spa
     Rows::constants(block);
     Rows::rows(placed.geometry, side(joint.a), side(joint.b), block);
   });
-  if (placed.acts == Acts::kMotor) block.phi[0] = 0.0;
+  if (placed.acts == Acts::kMotor || placed.acts == Acts::kFriction) block.phi[0] = 0.0;
   if (placed.is_limit()) {
     block.lo = 0.0;
     block.hi = kUnbounded;

@@ -86,10 +86,10 @@ struct LinearMotor : Motor {
 /// A spring and damper of a joint's coordinate x, with as much effort as it has:
 ///   stiffness (target - x) + damping (velocity - dx/dt).
 struct Drive {
-  double target = 0.0;           // [rad or m]
-  double velocity = 0.0;         // [rad/s or m/s]
-  double stiffness = 0.0;        // >= 0; it or the damping is above 0 [N m/rad or N/m]
-  double damping = 0.0;          // >= 0 [N m s/rad or N s/m]
+  double target = 0.0;                // [rad or m]
+  double velocity = 0.0;              // [rad/s or m/s]
+  double stiffness = 0.0;             // >= 0; it or the damping is above 0 [N m/rad or N/m]
+  double damping = 0.0;               // >= 0 [N m s/rad or N s/m]
   std::optional<double> effort = {};  // largest torque or force, > 0; none: unbounded [N m or N]
 };
 
@@ -140,6 +140,7 @@ struct HingeJoint : JointBase {
   std::optional<AngleLimit> limit;
   std::optional<AngularMotor> motor;
   std::optional<AngularDrive> drive;
+  std::optional<double> friction;  // dry: largest torque about the axis, > 0 [N m]
 
   template <class J, class Field>
   static void own_fields(J& joint, Field&& field) {
@@ -149,6 +150,7 @@ struct HingeJoint : JointBase {
     field("limit", joint.limit);
     field("motor", joint.motor);
     field("drive", joint.drive);
+    field("friction", joint.friction, kMotorTorqueRange);
   }
 };
 
@@ -178,6 +180,7 @@ struct PrismaticJoint : OrientedJoint {
   std::optional<TravelLimit> limit;
   std::optional<LinearMotor> motor;
   std::optional<LinearDrive> drive;
+  std::optional<double> friction;  // dry: largest force along the axis, > 0 [N]
 
   template <class J, class Field>
   static void own_fields(J& joint, Field&& field) {
@@ -185,6 +188,7 @@ struct PrismaticJoint : OrientedJoint {
     field("limit", joint.limit);
     field("motor", joint.motor);
     field("drive", joint.drive);
+    field("friction", joint.friction, kMotorForceRange);
   }
 };
 

@@ -105,6 +105,16 @@ inline const Drive* drive_of(const Joint& joint) {
       joint);
 }
 
+/// The largest torque or force of a joint's dry friction [N m or N], or nothing.
+inline std::optional<double> friction_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> std::optional<double> {
+        if constexpr (requires { j.friction; }) return j.friction;
+        return std::nullopt;
+      },
+      joint);
+}
+
 /// The drive of a hinge's angle, or null.
 inline const AngularDrive* angular_drive_of(const Joint& joint) {
   const auto* hinge = std::get_if<HingeJoint>(&joint);

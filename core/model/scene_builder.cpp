@@ -126,6 +126,12 @@ void SceneBuilder::drive(int joint, const Drive& by) {
   }
 }
 
+void SceneBuilder::rub(int joint, double effort) {
+  Joint& of = scene_.joints[index(joint)];
+  if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->friction = effort;
+  if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->friction = effort;
+}
+
 int SceneBuilder::add_prismatic(int a, int b, const Vec3& point, const Vec3& axis) {
   PrismaticJoint joint;
   place(scene_, a, b, point, joint);

@@ -194,11 +194,14 @@ void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
 }
 
 void Simulator::Impl::drive_motors(const Substep& sub, std::span<const Vec6> u) const {
-  if (!scene->effects.motors && !scene->effects.drives) return;
+  const Effects& effects = scene->effects;
+  if (!effects.motors && !effects.drives && !effects.joint_friction) return;
   for (Block& block : sub.rows) {
     if (!block.is_motor()) continue;
     if (is_drive(block)) {
       set_drive(sub, state, coordinates->drive(block), u, block);
+    } else if (is_joint_friction(block)) {
+      set_joint_friction(sub, coordinates->friction(block), impulse_time_of(sub, block), block);
     } else {
       set_motor(block, impulse_time_of(sub, block));
     }
@@ -209,6 +212,8 @@ void Simulator::Impl::set_reaction(const Substep& sub, Block& row) const {
   const double time = impulse_time_of(sub, row) - 0.5 * sub.dt;
   if (is_drive(row)) {
     set_drive_reaction(sub, coordinates->drive(row), time, row);
+  } else if (is_joint_friction(row)) {
+    set_joint_friction(sub, coordinates->friction(row), time, row);
   } else {
     set_motor(row, time);
   }

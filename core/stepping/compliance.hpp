@@ -30,8 +30,9 @@ namespace substep {
 // A drive is a spring k = 1/C about its target, with a damper. Its row is always solved: with
 // Störmer's method it has Numerov's weights. The damper's force is
 //   -c (theta (J u+) + (1 - theta) J u),
-// with the velocity at the poses between both sub-steps, theta = dt-/(dt- + dt) >= 1/4, blended into
-// theta = 1 with a^2/(a^2 + 4), a = c t/m; implicit Euler has theta = 1. On one degree of freedom
+// with the velocity at the poses between both sub-steps, theta = dt-/(dt- + dt) >= 1/4, blended
+// into theta = 1 with a^2/(a^2 + 4), a = c t/m; implicit Euler has theta = 1. The recurrence of one
+// degree of freedom
 //   (1 + w+ kappa + theta a) phi+ - (2 - w0 kappa + (2 theta - 1) a) phi
 //     + (1 + w- kappa - (1 - theta) a) phi- = 0
 // has its roots within the unit circle for any k, c >= 0 and dt, as (1 - theta) a <= 1.

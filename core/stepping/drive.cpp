@@ -29,9 +29,9 @@ void set_drive_row(const Drive& drive, const DriveMeans& means, double time, dou
   if (!(softness < kSoftest)) return;  // it has no force or no time
   const double phi = row.elastic[0] - drive.target;
   row.softness[0] += softness;
-  row.bias[0] = (drive.stiffness * (phi + means.behind) +
-                 drive.damping * (means.rest - drive.velocity)) /
-                resistance;
+  row.bias[0] =
+      (drive.stiffness * (phi + means.behind) + drive.damping * (means.rest - drive.velocity)) /
+      resistance;
   row.hi = drive.effort ? *drive.effort * time : kAnyEffort;
   row.lo = -row.hi;
 }
@@ -79,6 +79,15 @@ double effort_at(const Drive& drive, double coordinate, double speed) {
   const double effort = drive.stiffness * std::abs(coordinate - drive.target) +
                         drive.damping * std::abs(speed - drive.velocity);
   return drive.effort ? std::min(effort, *drive.effort) : effort;
+}
+
+void set_joint_friction(const Substep& sub, double effort, double time, Block& row) {
+  constexpr double kShares = 1e-9;
+  const double softness = kShares * mobility_of(row, 0, sub.inverse_mass);
+  row.hi = effort * time;
+  row.lo = -row.hi;
+  row.softness[0] = sub.scene->regularisation + softness;
+  row.bias[0] = -softness * std::clamp(row.impulse[0], row.lo, row.hi);
 }
 
 }  // namespace substep

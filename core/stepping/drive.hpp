@@ -27,4 +27,10 @@ void set_drive_reaction(const Substep& sub, const Drive& drive, double time, Blo
 /// Largest torque or force of a drive at a speed of its coordinate [N m or N].
 double effort_at(const Drive& drive, double coordinate, double speed);
 
+/// Sets bias, softness and bounds of a row of dry friction: its impulse opposes the motion that the
+/// row stops if it can. The softness, 1e-9 of the mobility of the row, lets redundant rows of a
+/// loop share a force; it acts on the change of the impulse alone, so that nothing creeps.
+/// @param effort largest torque or force [N m or N]  @param time duration of the impulse [s]
+void set_joint_friction(const Substep& sub, double effort, double time, Block& row);
+
 }  // namespace substep

@@ -28,8 +28,8 @@ void seed(const Substep& sub, const State& state, const StoredForce& force, Bloc
 
 bool forces_are_stored(const Substep& sub) {
   const Effects& effects = sub.scene->effects;
-  return effects.contact || acts_on_coordinates(effects) ||
-         starts_from_last_forces(sub.settings) || springs_are_stored(sub);
+  return effects.contact || acts_on_coordinates(effects) || starts_from_last_forces(sub.settings) ||
+         springs_are_stored(sub);
 }
 
 std::size_t StoredForceIndex::find(std::span<const StoredForce> forces, std::uint64_t id,

@@ -135,6 +135,7 @@ inline void join(Scene& scene, int a, int b, const Vec3& point) {
     if (one_in(2)) drive.effort = magnitude(1e-6, 1e6);
     hinge.drive = AngularDrive{drive, turned(a, v1), turned(b, v1)};
   }
+  if (one_in(4)) hinge.friction = magnitude(1e-6, 1e6);
   scene.joints.emplace_back(hinge);
 }
 
@@ -245,6 +246,7 @@ inline Scene any_scene() {
   effects.limits = needs_limits(scene);
   effects.motors = needs_motors(scene);
   effects.drives = needs_drives(scene);
+  effects.joint_friction = needs_joint_friction(scene);
   const bool limits_rebound =
       std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
         const Limit* limit = limit_of(joint);

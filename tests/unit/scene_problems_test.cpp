@@ -233,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(
                 R"("friction"],)",
                 R"("friction", "magnetism"],)",
                 {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
-                 "external, limits, motors or drives, not \"magnetism\""}},
+                 "external, limits, motors, drives or joint_friction, not \"magnetism\""}},
         BadFile{"EffectOfForcesMissing",
                 R"("shape": {"type": "sphere")",
                 R"("force": [0, 0, 0], "torque": [0, 1, 0], "shape": {"type": "sphere")",
@@ -531,8 +531,7 @@ TEST(SceneProblems, OfDrives) {
   };
   EXPECT_EQ(drive(R"("target": 20, "velocity": 1, "stiffness": 1e5, "torque": 3)"), List{});
   EXPECT_EQ(drive(R"("damping": 2)"), List{});
-  EXPECT_EQ(drive(R"("target": 1)"),
-            List{"/joints/0/drive: stiffness or damping must be above 0"});
+  EXPECT_EQ(drive(R"("target": 1)"), List{"/joints/0/drive: stiffness or damping must be above 0"});
   EXPECT_EQ(drive(R"("stiffness": -1, "damping": 1e13, "torque": 0)"),
             (List{"/joints/0/drive/stiffness: must be at least 0 (N m/rad), not -1",
                   "/joints/0/drive/damping: must be at most 1e12 (N m s/rad), not 1e13",
@@ -551,6 +550,15 @@ TEST(SceneProblems, OfDrives) {
                  "angle is 0.8, which is more than 1e-6"});
   EXPECT_EQ(problems_with(R"("drive": {"stiffness": 1, )" + across, R"("friction"])"),
             List{"/effects: \"drives\" is missing, but /joints/0/drive is given"});
+}
+
+TEST(SceneProblems, OfJointFriction) {
+  const std::string listed = R"("friction", "joint_friction"])";
+  EXPECT_EQ(problems_with(R"("friction": 0.5)", listed), List{});
+  EXPECT_EQ(problems_with(R"("friction": 0)", listed),
+            List{"/joints/0/friction: must be above 0 (N m), not 0"});
+  EXPECT_EQ(problems_with(R"("friction": 1)", R"("friction"])"),
+            List{"/effects: \"joint_friction\" is missing, but /joints/0/friction is given"});
 }
 
 }  // namespace

@@ -115,9 +115,16 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
   }
   SolveReport report;
   has_impulses_ = false;
-  any_bounded_ = std::any_of(system.blocks.begin(), system.blocks.end(),
-                             [](const Block& block) { return block.binds(); });
-  start_active_set(system);
+  any_bounded_ = false;
+  for (Block& block : system.blocks) {
+    if (!block.is_bounded()) continue;
+    if (block.binds()) {
+      any_bounded_ = true;
+    } else {
+      block.active_set[0] = 0;
+    }
+  }
+  if (any_bounded_) start_active_set(system);
   const int refinements = refinements_of(system, settings);
   if (refinements > 0) centre(system);
   find_active_set(system, settings, report);
@@ -233,12 +240,10 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
 // A row active in the last sub-step starts active. A new contact starts free if the bodies would
 // touch within the step.
 void Bpp::start_active_set(const System& system) {
-  if (any_bounded_) friction_bound_.assign(system.blocks.size(), 0.0);
+  friction_bound_.assign(system.blocks.size(), 0.0);
   for (Block& block : system.blocks) {
-    if (!block.is_bounded()) continue;  // always free
-    if (!block.binds()) {
-      block.active_set[0] = 0;
-    } else if (block.lo == block.hi) {
+    if (!block.binds()) continue;  // always free
+    if (block.lo == block.hi) {
       block.active_set[0] = -1;
     } else if (block.is_motor() && !has_known_set(block)) {
       block.active_set[0] = 0;

@@ -22,6 +22,8 @@ Scene edition_of(const Scene& scene, const State& state, const Settings& setting
           if constexpr (requires { own.limit; }) {
             if (!effects.limits) own.limit.reset();
             if (!effects.motors) own.motor.reset();
+            if (!effects.drives) own.drive.reset();
+            if (!effects.joint_friction) own.friction.reset();
             if (own.limit && !effects.restitution) own.limit->restitution = 0.0;
           }
         },

@@ -13,6 +13,9 @@ namespace substep {
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
+/// Block::hi of a drive that has all the effort it needs: its row is never at a bound.
+inline constexpr double kAnyEffort = std::numeric_limits<double>::max();
+
 /// Bias of a contact that nothing closes [m/s].
 inline constexpr double kStaysOpen = 1e30;
 
@@ -23,8 +26,8 @@ inline constexpr std::int8_t kUnknownSet = 2;
 /// limited or driven, its index in CoordinateTable.
 enum class BlockKind : std::uint8_t { kFirstJoint, kFirstCoordinate = 128, kContact = 255 };
 
-/// The rows of one joint, of a limit or motor of one, or of one contact point, on at most two
-/// moving bodies; array elements beyond `rows` are unspecified. Eq. 3 row by row:
+/// The rows of one joint, of a limit, motor, drive or dry friction of one, or of one contact point,
+/// on at most two moving bodies; array elements beyond `rows` are unspecified. Eq. 3 row by row:
 ///   J u+ + softness * impulse = -bias,   lo <= impulse <= hi.
 /// A static body or the world is -1 and has no columns.
 struct Block {
@@ -48,7 +51,7 @@ struct Block {
   double restitution = 0.0;          // limit [-]
   std::int8_t active_set[kMaxRows];  // BPP: -1 at lo, 0 free (always for joints), +1 at hi
   // Bounds of the impulse of row 0: 0 and infinity for a contact or a limit, those of its effort
-  // for a motor; not read for a joint [N s or N m s].
+  // for a motor, a drive or dry friction; not read for a joint [N s or N m s].
   double lo = 0.0;
   double hi = kUnbounded;
 
@@ -90,7 +93,8 @@ struct Block {
   Vec3 w = Vec3::Zero();
 
   // For compliant rows, compliance.hpp.
-  double elastic[kMaxRows] = {};  // elastic part of phi [m or rad]
+  // Elastic part of phi; of a drive its coordinate, full turns included [m or rad].
+  double elastic[kMaxRows] = {};
   // Contact or limit: change of the gap in this sub-step beyond dt J u [m or rad].
   double curved = 0.0;
   double spring_ahead[kMaxRows] = {};  // w+, 0 if the row is not a spring
@@ -105,13 +109,15 @@ struct Block {
   double last_rate_age = 0.0;         // age of that rate relative to that force [s]
 
   [[nodiscard]] bool is_contact() const { return kind == BlockKind::kContact; }
-  /// A contact, a limit or a motor: its impulses have bounds.
+  /// Not a joint: its impulses have bounds.
   [[nodiscard]] bool is_bounded() const { return kind >= BlockKind::kFirstCoordinate; }
   /// A contact or a limit: it only pushes, and opens and closes.
   [[nodiscard]] bool is_unilateral() const { return is_bounded() && !(hi < kUnbounded); }
-  /// The coordinate of a joint as a row: a limit or a motor.
+  /// True if the bounds may be reached.
+  [[nodiscard]] bool binds() const { return is_bounded() && hi != kAnyEffort; }
+  /// The coordinate of a joint as a row: a limit, a motor, a drive or dry friction.
   [[nodiscard]] bool is_coordinate() const { return is_bounded() && !is_contact(); }
-  /// A motor.
+  /// A motor, a drive or dry friction: it pulls and pushes with a bounded effort.
   [[nodiscard]] bool is_motor() const { return is_bounded() && hi < kUnbounded; }
 };
 

@@ -16,13 +16,14 @@ constexpr double kClosed = 1e-2;     // limits that are closer than this have ro
 constexpr double kMargin = 1.0;      // or, with rows for open limits, besides the motion
 constexpr double kRounding = 1e-11;  // of the coordinate where a limit closes
 
-/// The parts of a joint that have rows of their own.
-enum class Acts : std::uint8_t { kLower, kUpper, kMotor };
+using Acts = CoordinateStage::Acts;
 
-/// Distinct from the ids of joints, contacts and grabs.
+/// Distinct from the ids of joints, contacts and grabs: bit 62, the joint from bit 2 on, and the
+/// part of it in bits 61, 1 and 0.
 std::uint64_t id_of(std::size_t joint, Acts part) {
-  return (1ULL << 62U) | (static_cast<std::uint64_t>(joint) << 2U) |
-         static_cast<std::uint64_t>(part);
+  const auto number = static_cast<std::uint64_t>(part);
+  return (1ULL << 62U) | ((number >> 2U) << 61U) | (static_cast<std::uint64_t>(joint) << 2U) |
+         (number & 3U);
 }
 
 /// Largest change of a coordinate in a motion [rad or m].
@@ -69,7 +70,7 @@ CoordinateStage::CoordinateStage(const Scene& scene) : scene_(scene) {
       const auto* own = std::get_if<typename Rows::Owner>(&scene.joints[joint]);
       if (own == nullptr) return;
       const auto add = [&](Acts part, const JointGeometry& geometry) {
-        placed_.push_back({id_of(joint, part), static_cast<int>(joint), part == Acts::kMotor,
+        placed_.push_back({id_of(joint, part), static_cast<int>(joint), part,
                            kind_of_coordinate<Rows>(), geometry, Rows::width(a)});
       };
       if (own->limit && scene.effects.limits) {
@@ -78,17 +79,35 @@ CoordinateStage::CoordinateStage(const Scene& scene) : scene_(scene) {
         has_limits_ = true;
       }
       if (own->motor && scene.effects.motors) add(Acts::kMotor, Rows::geometry(*own));
+      if (own->drive && scene.effects.drives) {
+        add(Acts::kDrive, Rows::geometry(*own, *own->drive));
+      }
+      if (own->friction && scene.effects.joint_friction) {
+        add(Acts::kFriction, Rows::geometry(*own));
+      }
     });
   }
   first_.push_back(placed_.size());
 }
 
 int CoordinateStage::joint_of(std::uint64_t id) {
-  return static_cast<int>((id & ~(3ULL << 62U)) >> 2U);
+  return static_cast<int>((id & ~(7ULL << 61U)) >> 2U);
+}
+
+Acts CoordinateStage::acts(std::uint64_t id) {
+  return static_cast<Acts>(((id >> 61U) & 1U) << 2U | (id & 3U));
 }
 
 const Motor& CoordinateStage::motor(const Block& row) const {
   return *motor_of(scene_.joints[index(joint_of(row.id))]);
+}
+
+const Drive& CoordinateStage::drive(const Block& row) const {
+  return *drive_of(scene_.joints[index(joint_of(row.id))]);
+}
+
+double CoordinateStage::friction(const Block& row) const {
+  return *friction_of(scene_.joints[index(joint_of(row.id))]);
 }
 
 double CoordinateStage::width_of(const Block& row) const {
@@ -125,13 +144,13 @@ Block& CoordinateStage::place(const Placed& placed, const State& state, std::spa
     Rows::constants(block);
     Rows::rows(placed.geometry, side(joint.a), side(joint.b), block);
   });
-  if (placed.is_motor) {
-    block.phi[0] = 0.0;
-    block.lo = block.hi = 0.0;
-  } else {
+  if (placed.acts == Acts::kMotor || placed.acts == Acts::kFriction) block.phi[0] = 0.0;
+  if (placed.is_limit()) {
     block.lo = 0.0;
     block.hi = kUnbounded;
     block.restitution = limit_of(scene_.joints[index(placed.joint)])->restitution;
+  } else {
+    block.lo = block.hi = 0.0;
   }
   return block;
 }
@@ -141,7 +160,7 @@ void CoordinateStage::append(const Part& part, const State& state, std::span<con
   for_each(part, [&](Placed& placed) {
     placed.row = blocks.size();
     const Block& block = place(placed, state, R_WB, blocks.append());
-    if (placed.is_motor) return;
+    if (!placed.is_limit()) return;
     const double near = touching
                             ? kClosed * placed.width
                             : kMargin * placed.width + 2.0 * largest_change(block, state.u, dt);
@@ -155,7 +174,7 @@ SweptContacts::Found CoordinateStage::sweep(const SweptContacts::Sweep& sweep, s
   earliest_ = sweep.dt;
   Found all = Found::kNothing;
   for_each(sweep.part, [&](Placed& placed) {
-    if (placed.is_motor) return;
+    if (!placed.is_limit()) return;
     const Block& start = place(placed, sweep.state, sweep.R_WB, scratch_);
     if (start.phi[0] > largest_change(start, sweep.w, sweep.until)) return;
     const auto motion_of = [&](int body, double time) {

@@ -11,16 +11,21 @@
 
 namespace substep {
 
-/// Limits and motors of joints: one row for each that acts, on a coordinate of CoordinateTable.
+/// Limits, motors, drives and dry friction of joints: one row for each that acts, on a coordinate
+/// of CoordinateTable.
 class CoordinateStage {
  public:
-  /// Limits and motors whose effect is enabled.
+  /// The parts of a joint that have rows of their own.
+  enum class Acts : std::uint8_t { kLower, kUpper, kMotor, kDrive, kFriction };
+
+  /// Those whose effect is enabled.
   explicit CoordinateStage(const Scene& scene);
   /// Largest number of rows.
   [[nodiscard]] std::size_t size() const { return placed_.size(); }
   [[nodiscard]] bool has_limits() const { return has_limits_; }
 
-  /// Appends motors, and limits that are closed or may close.
+  /// Appends friction, motors, drives, whose phi is the coordinate, and limits that are closed or
+  /// may close.
   /// @param dt the sub-step [s]  @param touching only limits that are closed: sweep() finds others
   void append(const Part& part, const State& state, std::span<const Mat3> R_WB, double dt,
               bool touching, Blocks& blocks);
@@ -30,20 +35,24 @@ class CoordinateStage {
   /// As SweptContacts::earliest().
   [[nodiscard]] double earliest() const { return earliest_; }
 
-  /// The motor of a row.
+  /// The motor, the drive or the largest friction [N m or N] of a row.
   [[nodiscard]] const Motor& motor(const Block& row) const;
+  [[nodiscard]] const Drive& drive(const Block& row) const;
+  [[nodiscard]] double friction(const Block& row) const;
   /// In place of the half width of a shape: the measure of the tolerances of a limit [rad or m].
   [[nodiscard]] double width_of(const Block& row) const;
 
-  /// Whether a block's id is that of a limit or a motor, and its joint.
+  /// Whether a block's id is one of these rows, which part of its joint it is, and the joint.
   [[nodiscard]] static bool is_id(std::uint64_t id) { return id >> 62U == 1U; }
+  [[nodiscard]] static Acts acts(std::uint64_t id);
   [[nodiscard]] static int joint_of(std::uint64_t id);
 
  private:
   struct Placed {
     std::uint64_t id = 0;
     int joint = 0;
-    bool is_motor = false;
+    Acts acts = Acts::kLower;
+    [[nodiscard]] bool is_limit() const { return acts <= Acts::kUpper; }
     BlockKind kind = BlockKind::kFirstCoordinate;
     JointGeometry geometry;
     double width = 0.0;   // as width_of()
@@ -61,5 +70,14 @@ class CoordinateStage {
   bool has_limits_ = false;
   double earliest_ = 0.0;
 };
+
+/// True for the row of a drive.
+inline bool is_drive(const Block& row) {
+  return row.is_coordinate() && CoordinateStage::acts(row.id) == CoordinateStage::Acts::kDrive;
+}
+/// True for a row of dry friction.
+inline bool is_joint_friction(const Block& row) {
+  return row.is_coordinate() && CoordinateStage::acts(row.id) == CoordinateStage::Acts::kFriction;
+}
 
 }  // namespace substep

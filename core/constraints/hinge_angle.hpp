@@ -29,6 +29,15 @@ struct HingeAngle {
     return geometry;
   }
 
+  /// phi = theta, from -pi to pi.
+  static JointGeometry geometry(const HingeJoint& hinge, const AngularDrive& drive) {
+    JointGeometry geometry;
+    geometry.u = hinge.axis_a;
+    geometry.v1 = drive.across_b;
+    geometry.w = drive.across_a;
+    return geometry;
+  }
+
   /// Of a row that has a speed and no position: the zero of the angle does not matter.
   static JointGeometry geometry(const HingeJoint& hinge) {
     JointGeometry geometry;

@@ -23,6 +23,11 @@ struct SlideTravel {
     return geometry;
   }
 
+  /// phi = v . d
+  static JointGeometry geometry(const PrismaticJoint& slide, const LinearDrive& /*drive*/) {
+    return geometry(slide);
+  }
+
   /// Of a row that has a speed and no position.
   static JointGeometry geometry(const PrismaticJoint& slide) {
     JointGeometry geometry{slide.anchor_a, slide.anchor_b};

@@ -50,7 +50,9 @@ inline bool has_torque(const Scene& scene) {
 }
 
 /// True if torques that have no potential do work: energy may then grow.
-inline bool is_driven(const Scene& scene) { return scene.effects.motors || has_torque(scene); }
+inline bool is_driven(const Scene& scene) {
+  return scene.effects.motors || scene.effects.drives || has_torque(scene);
+}
 
 /// True if applied forces other than the known ones act on bodies.
 inline bool has_applied_forces(const Effects& effects,

@@ -109,6 +109,10 @@ struct OwnFieldReader {
     // One that may not be 0 has no default.
     in.number(key, range, number, range.contains(0.0) ? kOptional : kRequired);
   }
+  void operator()(std::string_view key, std::optional<double>& number, const Range& range) const {
+    double given = 0.0;
+    if (in.number(key, range, given, kOptional)) number = given;
+  }
   template <class Part>
   void operator()(std::string_view key, std::optional<Part>& target) const {
     const Json* json = in.member(key, kOptional);

@@ -74,6 +74,9 @@ struct OwnFieldWriter {
 
   void operator()(const char* key, const Vec3& axis) const { axes[key] = vector_json(axis); }
   void operator()(const char* key, double number, const Range&) const { numbers[key] = number; }
+  void operator()(const char* key, const std::optional<double>& number, const Range&) const {
+    if (number) numbers[key] = *number;
+  }
   template <class Part>
   void operator()(const char* key, const std::optional<Part>& part) const {
     if (!part) return;

@@ -92,6 +92,8 @@ std::string energy_changes_by(const Scene& scene, bool touches) {
     return "limits";
   }
   if (effects.motors) return "motors";
+  if (effects.drives) return "drives";
+  if (effects.joint_friction) return "joint friction";
   return has_torque(scene) ? "a constant torque" : "";
 }
 

@@ -31,7 +31,7 @@ bool has_equal_moments(const Body& body) {
 bool is_out_of_scope(const Scene& scene) {
   if (has_applied_forces(scene.effects, {&Effects::gravity})) return true;
   if (scene.effects.contact || scene.regularisation != 0.0) return true;
-  if (scene.effects.limits || scene.effects.motors) return true;
+  if (acts_on_coordinates(scene.effects)) return true;
   if (!scene.joints.empty() && !scene.effects.joints) return true;
   // Without the gyroscopic torque the simulated motion is not that of rigid bodies.
   return !scene.effects.gyroscopic &&

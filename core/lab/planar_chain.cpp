@@ -61,7 +61,7 @@ std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(cons
 std::optional<PlanarChain> PlanarChain::of(const Scene& scene) {
   if (!is_runnable(scene)) return std::nullopt;
   if (has_applied_forces(scene.effects, {&Effects::gravity})) return std::nullopt;
-  if (scene.effects.contact || scene.effects.limits || scene.effects.motors) return std::nullopt;
+  if (scene.effects.contact || acts_on_coordinates(scene.effects)) return std::nullopt;
   if (!scene.effects.joints || scene.joints.empty()) return std::nullopt;
   std::size_t moving = 0;
   for (const Body& body : scene.bodies) moving += body.is_static ? 0 : 1;

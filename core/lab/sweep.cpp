@@ -30,7 +30,7 @@ constexpr double kReferenceWork = 0.05;  // share of the progress bar
 
 /// True if rows of the scene may open, close, or reach a bound.
 bool has_bounds(const Scene& scene) {
-  return scene.effects.contact || scene.effects.limits || scene.effects.motors;
+  return scene.effects.contact || acts_on_coordinates(scene.effects);
 }
 
 /// With the direct solver, N decided once per frame.

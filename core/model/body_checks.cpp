@@ -66,6 +66,9 @@ struct OwnFieldCheck {
   void operator()(const char* key, double number, const Range& range) const {
     check_number(number, range, place.at(key), problems);
   }
+  void operator()(const char* key, const std::optional<double>& number, const Range& range) const {
+    if (number) check_number(*number, range, place.at(key), problems);
+  }
   template <class Part>
   void operator()(const char* key, const std::optional<Part>& part) const {
     const DataPlace there = place.at(key);
@@ -119,19 +122,34 @@ std::optional<std::string> across_axis_fault(const Vec3& axis, const Vec3& v) {
          ", which is more than " + number_text(kUnitTolerance);
 }
 
+/// Of the directions from which the angle of a hinge is measured.
+std::optional<JointFault> zero_fault(std::string_view key, const JointAxes& axes,
+                                     const auto& directions) {
+  if (const auto fault = across_axis_fault(axes.a, directions.across_a)) {
+    return JointFault{key, "across_a " + *fault};
+  }
+  if (const auto fault = across_axis_fault(axes.b, directions.across_b)) {
+    return JointFault{key, "across_b " + *fault};
+  }
+  return std::nullopt;
+}
+
 std::optional<JointFault> limit_fault(const JointAxes& axes, const AngleLimit& limit) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   if (!(limit.upper - limit.lower < kTurn)) {
     return JointFault{"limit", "upper and lower must be less than a full turn apart, not " +
                                    number_text(limit.upper - limit.lower) + " (rad)"};
   }
-  if (const auto fault = across_axis_fault(axes.a, limit.across_a)) {
-    return JointFault{"limit", "across_a " + *fault};
-  }
-  if (const auto fault = across_axis_fault(axes.b, limit.across_b)) {
-    return JointFault{"limit", "across_b " + *fault};
-  }
-  return std::nullopt;
+  return zero_fault("limit", axes, limit);
+}
+
+std::optional<JointFault> drive_fault(const Joint& joint, const JointAxes& axes) {
+  const Drive* drive = drive_of(joint);
+  if (drive == nullptr) return std::nullopt;
+  if (drive->stiffness == 0.0 && drive->damping == 0.0)
+    return JointFault{"drive", "stiffness or damping must be above 0"};
+  const AngularDrive* angular = angular_drive_of(joint);
+  return angular != nullptr ? zero_fault("drive", axes, *angular) : std::nullopt;
 }
 
 }  // namespace
@@ -143,7 +161,10 @@ std::optional<JointFault> joint_fault(const Joint& joint) {
     return JointFault{"limit", "upper must be above lower, " + number_text(limit->lower) +
                                    ", not " + number_text(limit->upper)};
   }
-  if (const AngleLimit* limit = angle_limit_of(joint)) return limit_fault(*axes, *limit);
+  if (const AngleLimit* limit = angle_limit_of(joint)) {
+    if (auto fault = limit_fault(*axes, *limit)) return fault;
+  }
+  if (auto fault = drive_fault(joint, *axes)) return fault;
   const auto across = across_of(joint);
   if (!across) return std::nullopt;
   if (const auto fault = across_axis_fault(axes->a, across->a))

@@ -46,7 +46,8 @@ struct JointFault {
 /// other number is a fault
 std::optional<JointFault> side_fault(const std::vector<Body>& bodies, int a, int b);
 /// The first fault of members that depend on each other: "across_a" or "across_b" if it is not
-/// perpendicular to its axis, "limit" if its bounds or directions do not fit.
+/// perpendicular to its axis, "limit" if its bounds or directions do not fit, "drive" if its
+/// directions do not or it has neither stiffness nor damping.
 std::optional<JointFault> joint_fault(const Joint& joint);
 
 /// Adds all problems of one body. @param place of the body, such as "/bodies/3"

@@ -54,6 +54,14 @@ bool needs_motors(const Scene& scene) {
   return std::any_of(scene.joints.begin(), scene.joints.end(), motor_of);
 }
 
+bool needs_drives(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), drive_of);
+}
+
+bool needs_joint_friction(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), friction_of);
+}
+
 bool needs_external(const Scene& scene) {
   return any_moving(scene, [](const Body& body) {
     return body.force != Vec3::Zero() || body.torque != Vec3::Zero();

@@ -19,6 +19,8 @@ struct Effects {
   bool external = false;  // the constant forces and torques of bodies
   bool limits = false;    // of joints
   bool motors = false;    // of joints
+  bool drives = false;    // of joints
+  bool joint_friction = false;
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };
@@ -33,6 +35,8 @@ bool needs_restitution(const Scene& scene);
 bool needs_external(const Scene& scene);
 bool needs_limits(const Scene& scene);
 bool needs_motors(const Scene& scene);
+bool needs_drives(const Scene& scene);
+bool needs_joint_friction(const Scene& scene);
 
 struct EffectEntry {
   std::string_view name;  // in files
@@ -61,7 +65,11 @@ inline constexpr std::array kEffects{
                 "Constant forces and torques of the scene on its bodies."},
     EffectEntry{"limits", &Effects::limits, needs_limits,
                 "Limits of joints. Off: hinges turn and slides move freely.", &Effects::joints},
-    EffectEntry{"motors", &Effects::motors, needs_motors, "Motors of joints.", &Effects::joints}};
+    EffectEntry{"motors", &Effects::motors, needs_motors, "Motors of joints.", &Effects::joints},
+    EffectEntry{"drives", &Effects::drives, needs_drives,
+                "Drives of joints: springs and dampers towards a target.", &Effects::joints},
+    EffectEntry{"joint_friction", &Effects::joint_friction, needs_joint_friction,
+                "Dry friction of hinges and slides.", &Effects::joints}};
 
 constexpr bool lists_each_flag() {
   Effects listed;
@@ -71,6 +79,11 @@ constexpr bool lists_each_flag() {
   return kEffects.size() == sizeof(Effects);
 }
 static_assert(lists_each_flag(), "one entry for each flag");
+
+/// True if parts of joints act on their angle or travel.
+inline bool acts_on_coordinates(const Effects& effects) {
+  return effects.limits || effects.motors || effects.drives || effects.joint_friction;
+}
 
 /// True if an effect can act: it depends on none, or on one that is enabled.
 inline bool can_act(const EffectEntry& effect, const Effects& enabled) {

@@ -25,8 +25,8 @@ struct JointBase {
 
 // Each type has kType, its name in files, and own_fields(), which lists its members beyond
 // JointBase for reading, writing and checking: field(key, direction) for each unit vector,
-// field(key, number, range) for each number, and field(key, part) for each optional part, which has
-// own_fields() too.
+// field(key, number, range) for each number, which may be optional, and field(key, part) for each
+// optional part, which has own_fields() too.
 
 /// Bounds of the angle of a hinge or the travel of a slide.
 struct Limit {
@@ -83,6 +83,46 @@ struct LinearMotor : Motor {
   }
 };
 
+/// A spring and damper of a joint's coordinate x, with as much effort as it has:
+///   stiffness (target - x) + damping (velocity - dx/dt).
+struct Drive {
+  double target = 0.0;                // [rad or m]
+  double velocity = 0.0;              // [rad/s or m/s]
+  double stiffness = 0.0;             // >= 0; it or the damping is above 0 [N m/rad or N/m]
+  double damping = 0.0;               // >= 0 [N m s/rad or N s/m]
+  std::optional<double> effort = {};  // largest torque or force, > 0; none: unbounded [N m or N]
+};
+
+/// The angle is that of AngleLimit, but not bounded: it counts full turns. At the start it is from
+/// -pi to pi.
+struct AngularDrive : Drive {
+  Vec3 across_a = Vec3::UnitX();  // unit, perpendicular to axis_a, in the frame of a [-]
+  Vec3 across_b = Vec3::UnitX();  // unit, perpendicular to axis_b, in the frame of b [-]
+
+  template <class Part, class Field>
+  static void own_fields(Part& drive, Field&& field) {
+    field("target", drive.target, kDriveAngleRange);
+    field("velocity", drive.velocity, kAngularVelocityRange);
+    field("stiffness", drive.stiffness, kDriveTurningStiffnessRange);
+    field("damping", drive.damping, kDriveTurningDampingRange);
+    field("torque", drive.effort, kMotorTorqueRange);
+    field("across_a", drive.across_a);
+    field("across_b", drive.across_b);
+  }
+};
+
+/// The travel is that of TravelLimit.
+struct LinearDrive : Drive {
+  template <class Part, class Field>
+  static void own_fields(Part& drive, Field&& field) {
+    field("target", drive.target, kPositionRange);
+    field("velocity", drive.velocity, kVelocityRange);
+    field("stiffness", drive.stiffness, kDriveStiffnessRange);
+    field("damping", drive.damping, kDriveDampingRange);
+    field("force", drive.effort, kMotorForceRange);
+  }
+};
+
 /// The two anchors coincide: 3 rows.
 struct BallJoint : JointBase {
   static constexpr const char* kType = "ball";
@@ -99,6 +139,8 @@ struct HingeJoint : JointBase {
   double angular_compliance = 0.0;  // C of the two angular rows [rad/(N m)], >= 0
   std::optional<AngleLimit> limit;
   std::optional<AngularMotor> motor;
+  std::optional<AngularDrive> drive;
+  std::optional<double> friction;  // dry: largest torque about the axis, > 0 [N m]
 
   template <class J, class Field>
   static void own_fields(J& joint, Field&& field) {
@@ -107,6 +149,8 @@ struct HingeJoint : JointBase {
     field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
     field("limit", joint.limit);
     field("motor", joint.motor);
+    field("drive", joint.drive);
+    field("friction", joint.friction, kMotorTorqueRange);
   }
 };
 
@@ -135,12 +179,16 @@ struct PrismaticJoint : OrientedJoint {
   static constexpr bool kSlides = true;
   std::optional<TravelLimit> limit;
   std::optional<LinearMotor> motor;
+  std::optional<LinearDrive> drive;
+  std::optional<double> friction;  // dry: largest force along the axis, > 0 [N]
 
   template <class J, class Field>
   static void own_fields(J& joint, Field&& field) {
     OrientedJoint::own_fields(joint, field);
     field("limit", joint.limit);
     field("motor", joint.motor);
+    field("drive", joint.drive);
+    field("friction", joint.friction, kMotorForceRange);
   }
 };
 

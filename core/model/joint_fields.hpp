@@ -95,6 +95,32 @@ inline const Motor* motor_of(const Joint& joint) {
       joint);
 }
 
+/// The drive of a joint, or null.
+inline const Drive* drive_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> const Drive* {
+        if constexpr (requires { j.drive; }) return j.drive ? &*j.drive : nullptr;
+        return nullptr;
+      },
+      joint);
+}
+
+/// The largest torque or force of a joint's dry friction [N m or N], or nothing.
+inline std::optional<double> friction_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> std::optional<double> {
+        if constexpr (requires { j.friction; }) return j.friction;
+        return std::nullopt;
+      },
+      joint);
+}
+
+/// The drive of a hinge's angle, or null.
+inline const AngularDrive* angular_drive_of(const Joint& joint) {
+  const auto* hinge = std::get_if<HingeJoint>(&joint);
+  return hinge != nullptr && hinge->drive ? &*hinge->drive : nullptr;
+}
+
 /// The limit of a hinge's angle, or null.
 inline const AngleLimit* angle_limit_of(const Joint& joint) {
   const auto* hinge = std::get_if<HingeJoint>(&joint);

@@ -90,16 +90,22 @@ int SceneBuilder::add_hinge(int a, int b, const Vec3& point, const Vec3& axis) {
   return add(Joint(std::move(joint)));
 }
 
+Vec3 SceneBuilder::zero_of(const HingeJoint& hinge) const {
+  Vec3 v1;
+  Vec3 v2;
+  across(pose_of(scene_, hinge.a).second * hinge.axis_a, v1, v2);
+  return v1;
+}
+
 void SceneBuilder::limit(int joint, double lower, double upper, double restitution) {
   Joint& of = scene_.joints[index(joint)];
   if (auto* slide = std::get_if<PrismaticJoint>(&of)) {
     slide->limit = TravelLimit{{lower, upper, restitution}};
   } else if (auto* hinge = std::get_if<HingeJoint>(&of)) {
-    Vec3 v1;
-    Vec3 v2;
-    across(pose_of(scene_, hinge->a).second * hinge->axis_a, v1, v2);
-    hinge->limit = AngleLimit{
-        {lower, upper, restitution}, axis_in(scene_, hinge->a, v1), axis_in(scene_, hinge->b, v1)};
+    const Vec3 zero = zero_of(*hinge);
+    hinge->limit = AngleLimit{{lower, upper, restitution},
+                              axis_in(scene_, hinge->a, zero),
+                              axis_in(scene_, hinge->b, zero)};
   }
 }
 
@@ -108,6 +114,22 @@ void SceneBuilder::drive(int joint, double velocity, double effort) {
   if (auto* slide = std::get_if<PrismaticJoint>(&of))
     slide->motor = LinearMotor{{velocity, effort}};
   if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->motor = AngularMotor{{velocity, effort}};
+}
+
+void SceneBuilder::drive(int joint, const Drive& by) {
+  Joint& of = scene_.joints[index(joint)];
+  if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->drive = LinearDrive{by};
+  if (auto* hinge = std::get_if<HingeJoint>(&of)) {
+    const Vec3 zero = zero_of(*hinge);
+    hinge->drive =
+        AngularDrive{by, axis_in(scene_, hinge->a, zero), axis_in(scene_, hinge->b, zero)};
+  }
+}
+
+void SceneBuilder::rub(int joint, double effort) {
+  Joint& of = scene_.joints[index(joint)];
+  if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->friction = effort;
+  if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->friction = effort;
 }
 
 int SceneBuilder::add_prismatic(int a, int b, const Vec3& point, const Vec3& axis) {

@@ -34,6 +34,10 @@ class SceneBuilder {
   /// Turns a hinge, or moves a slide. @param velocity of a relative to b [rad/s or m/s]
   /// @param effort the largest torque or force [N m or N]
   void drive(int joint, double velocity, double effort);
+  /// Drives the angle of a hinge, 0 in the current poses, or the travel of a slide to a target.
+  void drive(int joint, const Drive& by);
+  /// Dry friction of a hinge or a slide. @param effort the largest torque or force [N m or N]
+  void rub(int joint, double effort);
   /// A point of a slides along an axis of b, without relative rotation.
   int add_prismatic(int a, int b, const Vec3& point, const Vec3& axis);
   /// A weld at a point of the world: a keeps its position and orientation relative to b.
@@ -54,6 +58,8 @@ class SceneBuilder {
  private:
   int add(Body body);
   int add(Joint joint);
+  /// World direction from which the angle of a hinge is measured, in the current poses.
+  [[nodiscard]] Vec3 zero_of(const HingeJoint& hinge) const;
 
   Scene scene_;
 };

@@ -155,7 +155,9 @@ void check_effects(const Scene& scene, Problems& problems) {
     missing("joints", "/joints has " + std::to_string(scene.joints.size()));
   }
   for (const auto& [effect, name] :
-       {std::pair(&Effects::limits, "limits"), std::pair(&Effects::motors, "motors")}) {
+       {std::pair(&Effects::limits, "limits"), std::pair(&Effects::motors, "motors"),
+        std::pair(&Effects::drives, "drives"),
+        std::pair(&Effects::joint_friction, "joint_friction")}) {
     if (!listed.joints && listed.*effect) {
       missing("joints", '"' + std::string(name) + "\" needs it");
     }
@@ -163,6 +165,8 @@ void check_effects(const Scene& scene, Problems& problems) {
   // Each is reported once.
   bool limits = listed.limits;
   bool motors = listed.motors;
+  bool drives = listed.drives;
+  bool joint_friction = listed.joint_friction;
   bool restitution = listed.restitution;
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const auto given = [&](const char* part) {
@@ -175,6 +179,12 @@ void check_effects(const Scene& scene, Problems& problems) {
     }
     if (motor_of(scene.joints[i]) != nullptr && !std::exchange(motors, true)) {
       missing("motors", given("motor"));
+    }
+    if (drive_of(scene.joints[i]) != nullptr && !std::exchange(drives, true)) {
+      missing("drives", given("drive"));
+    }
+    if (friction_of(scene.joints[i]) && !std::exchange(joint_friction, true)) {
+      missing("joint_friction", given("friction"));
     }
   }
   for (std::size_t i = 0; i < scene.bodies.size() && !listed.external; ++i) {

@@ -19,7 +19,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     joints = std::make_unique<JointStage>(*scene);
     mark_springs(*scene, state, *joints);
   }
-  if (effects.joints && (effects.limits || effects.motors))
+  if (effects.joints && acts_on_coordinates(effects))
     coordinates = std::make_unique<CoordinateStage>(*scene);
   if (effects.contact) contact = std::make_unique<ContactStage>(*scene);
   if (effects.friction) friction = std::make_unique<FrictionStage>(*scene);

@@ -93,9 +93,15 @@ struct Simulator::Impl {
   bool solve(Substep& sub, FrameReport& report);
   void seed(const Substep& sub);
   void set_bias(Substep& sub, FrameReport& report);
-  void drive_motors(const Substep& sub) const;
+  /// Sets the rows of motors, drives and dry friction. @param u velocities of the last sub-step
+  /// [m/s, rad/s]
+  void drive_motors(const Substep& sub, std::span<const Vec6> u) const;
   /// Its speed, and its bounds for an impulse of that duration [s].
   void set_motor(Block& row, double time) const;
+  /// What a motor, a drive or dry friction changes of the velocities until the poses.
+  void set_reaction(const Substep& sub, Block& row) const;
+  /// Seeds rows, and sums what drives exert on bodies.
+  void sum_drives(Substep& sub);
   bool solve_rows(Substep& sub, FrameReport& report);
   void set_softness(const Substep& sub, std::span<Block> rows) const;
   /// Repeats a solve until joints hold at the end. @param system its u* is u_star, by: its solver

@@ -183,12 +183,12 @@ SweptContacts::Found Simulator::Impl::settle_waiting(const Substep& sub, std::si
   return left;
 }
 
-// What joints, motors and resting contacts change of the velocities u at the start.
+// What joints, motors, drives and resting contacts change of the velocities u at the start.
 void Simulator::Impl::set_reactions(const Substep& sub, std::span<const Vec6> u,
                                     std::span<Block> rows) {
   for (Block& block : rows) {
     reset_row(block);
-    if (block.is_motor()) set_motor(block, impulse_time_of(sub, block) - 0.5 * sub.dt);
+    if (block.is_motor()) set_reaction(sub, block);
     if (!block.is_unilateral()) {
       set_joint(sub.inverse_mass, u, block);
       continue;

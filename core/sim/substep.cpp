@@ -8,6 +8,7 @@
 #include "core/solver/cost_model.hpp"
 #include "core/stepping/compliance.hpp"
 #include "core/stepping/drift.hpp"
+#include "core/stepping/drive.hpp"
 #include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/integrate.hpp"
 #include "core/stepping/stored_forces.hpp"
@@ -107,6 +108,7 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
 bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   sub.shift = sub.gain = {};
   begins_with_impact = false;
+  if (!sub.drives_on.empty()) sum_drives(sub);
   if (!(sweeps_motion(sub) ? solve_until_impact(sub, report) : solve_rows(sub, report))) {
     return false;
   }
@@ -179,21 +181,57 @@ void Simulator::Impl::seed(const Substep& sub) {
 void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
   if (sub.probing) {
     set_probe_bias(sub.rows, sub.dt);
-    return drive_motors(sub);
+    return drive_motors(sub, sub.u_start);
   }
   set_drift_bias(sub.rows, drift_law(sub.settings), sub.settings.drift_tau, sub.dt, sub.planned_dt);
   if (sweeps_motion(sub)) set_swept_bias(sub.rows, sub.gain, sub.shift, sub.dt, sub.planned_dt);
   set_springs(sub, state);
   if (sub.settings.drift_order == 2) add_curvature_bias(sub.rows, sub.u_start, sub.dt);
   if (restitution && separates) restitution->apply(sub, sub.u_before, sub.rows);
+  const bool is_struck = begins_with_impact || !sub.struck.empty();
+  drive_motors(sub, is_struck ? sub.u_before : sub.u_start);
   report.work.flops += sub.integrator->aim(sub, state);
-  drive_motors(sub);
 }
 
-void Simulator::Impl::drive_motors(const Substep& sub) const {
-  if (!scene->effects.motors) return;
+void Simulator::Impl::drive_motors(const Substep& sub, std::span<const Vec6> u) const {
+  const Effects& effects = scene->effects;
+  if (!effects.motors && !effects.drives && !effects.joint_friction) return;
   for (Block& block : sub.rows) {
-    if (block.is_motor()) set_motor(block, impulse_time_of(sub, block));
+    if (!block.is_motor()) continue;
+    if (is_drive(block)) {
+      set_drive(sub, state, coordinates->drive(block), u, block);
+    } else if (is_joint_friction(block)) {
+      set_joint_friction(sub, coordinates->friction(block), impulse_time_of(sub, block), block);
+    } else {
+      set_motor(block, impulse_time_of(sub, block));
+    }
+  }
+}
+
+void Simulator::Impl::set_reaction(const Substep& sub, Block& row) const {
+  const double time = impulse_time_of(sub, row) - 0.5 * sub.dt;
+  if (is_drive(row)) {
+    set_drive_reaction(sub, coordinates->drive(row), time, row);
+  } else if (is_joint_friction(row)) {
+    set_joint_friction(sub, coordinates->friction(row), time, row);
+  } else {
+    set_motor(row, time);
+  }
+}
+
+void Simulator::Impl::sum_drives(Substep& sub) {
+  seed(sub);  // which knows the turns of hinges
+  for (const int body : sub.part->moving) sub.drives_on[index(body)] = {};
+  for (const Block& row : sub.rows) {
+    if (!is_drive(row)) continue;
+    double speed[kMaxRows];
+    row_speeds(row, state.u, speed);
+    const double effort = effort_at(coordinates->drive(row), coordinate_of(row), speed[0]);
+    for (const int body : {row.a, row.b}) {
+      if (body < 0) continue;
+      MotorsOnBody& on = sub.drives_on[index(body)];
+      (row.position_rows > 0 ? on.force : on.torque) += effort;
+    }
   }
 }
 

@@ -156,8 +156,15 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
     return {.status = SolveStatus::kOverLimits, .memory_needed = ldlt_.needed_memory()};
   }
   SolveReport report;
-  any_bounded_ = std::any_of(system.blocks.begin(), system.blocks.end(),
-                             [](const Block& block) { return block.is_bounded(); });
+  any_bounded_ = false;
+  for (Block& block : system.blocks) {
+    if (!block.is_bounded()) continue;
+    if (block.binds()) {
+      any_bounded_ = true;
+    } else {
+      block.active_set[0] = 0;
+    }
+  }
   if (any_bounded_) start_active_set(system);
   const int refinements = refinements_of(system, settings);
   if (refinements > 0) centre(system);
@@ -207,7 +214,7 @@ bool Bpp::over_limits(const System& system, SolveReport& report) const {
 void Bpp::start_active_set(const System& system) {
   friction_bound_.assign(system.blocks.size(), 0.0);
   for (Block& block : system.blocks) {
-    if (!block.is_bounded()) continue;  // always free
+    if (!block.binds()) continue;  // always free
     if (block.lo == block.hi) {
       block.active_set[0] = -1;
     } else if (block.is_motor() && !has_known_set(block)) {

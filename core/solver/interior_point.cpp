@@ -21,7 +21,7 @@ void InteriorPoint::begin(const System& system, std::span<const Bounds> bounds) 
   double product = 0.0;
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
-    if (!block.is_bounded()) continue;
+    if (!block.binds()) continue;
     double speed[kMaxRows];
     row_speeds(block, system.u, speed);
     for (int row = 0; row < block.rows; ++row) {

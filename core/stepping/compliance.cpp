@@ -108,15 +108,6 @@ double resolved_weight(const Settings& settings) {
   return stormer ? 0.0 : kNumerov;
 }
 
-/// True if compliant rows do not use implicit Euler.
-bool averages_springs(const Settings& settings) { return resolved_weight(settings) < 1.0; }
-
-/// Weights of the poses ahead and behind, w+ and w-.
-struct SpringWeights {
-  double ahead = 1.0;
-  double behind = 0.0;
-};
-
 SpringWeights spring_weights(double resolved, double kappa) {
   if (resolved == 1.0) return {1.0, 0.0};
   const double square = kappa * kappa;
@@ -168,8 +159,7 @@ void set_contact_spring(const Substep& sub, const State& state, Block& contact) 
   const double force_time = impulse_time_of(sub, contact);
   const double kappa = spring_kappa(sub.dt * force_time, sub.inverse_mass, contact, 0, 1);
   if (!(kappa < kResolvedContact)) return;
-  SpringWeights w = spring_weights(resolved_weight(sub.settings), kappa);
-  if (w.ahead == 0.0) w = spring_weights(kNumerov, kappa);  // leapfrog's
+  const SpringWeights w = solved_weights(sub.settings, kappa);
   double speed[kMaxRows];
   row_speeds(contact, sub.u_start, speed);
   const double ahead = w.ahead * sub.dt;
@@ -183,6 +173,13 @@ void set_contact_spring(const Substep& sub, const State& state, Block& contact) 
 }
 
 }  // namespace
+
+bool averages_springs(const Settings& settings) { return resolved_weight(settings) < 1.0; }
+
+SpringWeights solved_weights(const Settings& settings, double kappa) {
+  const SpringWeights w = spring_weights(resolved_weight(settings), kappa);
+  return w.ahead == 0.0 ? spring_weights(kNumerov, kappa) : w;  // leapfrog's
+}
 
 void set_springs(const Substep& sub, const State& state) {
   const bool averages = averages_springs(sub.settings);  // else plain Eq. 3

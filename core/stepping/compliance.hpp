@@ -26,6 +26,22 @@ namespace substep {
 // and for springs too stiff to be resolved they blend into implicit Euler with
 // sigma = kappa^2/(kappa^2 + 4): w+ - w- = sigma, which changes a resolved spring at fourth order
 // in dt.
+//
+// A drive is a spring k = 1/C about its target, with a damper. Its row is always solved: with
+// Störmer's method it has Numerov's weights. The damper's force is
+//   -c (theta (J u+) + (1 - theta) J u),
+// with the velocity at the poses between both sub-steps, theta = dt-/(dt- + dt) >= 1/4, blended
+// into theta = 1 with a^2/(a^2 + 4), a = c t/m; implicit Euler has theta = 1. The recurrence of one
+// degree of freedom
+//   (1 + w+ kappa + theta a) phi+ - (2 - w0 kappa + (2 theta - 1) a) phi
+//     + (1 + w- kappa - (1 - theta) a) phi- = 0
+// has its roots within the unit circle for any k, c >= 0 and dt, as (1 - theta) a <= 1.
+
+/// Weights of the poses ahead and behind, w+ and w-.
+struct SpringWeights {
+  double ahead = 1.0;
+  double behind = 0.0;
+};
 
 /// Prescribes the impulse of a row, Block::given; the solve adds nothing to it. Expressed by
 /// softness and bias alone, it would be a small difference of large numbers. @param impulse [N s, N
@@ -37,6 +53,11 @@ void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row
 double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, const Block& joint,
                     int first, int end);
 inline constexpr double kResolved = 0.25;  ///< Störmer prescribes spring forces up to this kappa
+
+/// Weights of a spring whose force is not prescribed. @param kappa as spring_kappa()
+SpringWeights solved_weights(const Settings& settings, double kappa);
+/// True if compliant rows do not use implicit Euler.
+bool averages_springs(const Settings& settings);
 
 /// Makes contacts that are not springs rigid, but for a softness that is small beside the mobility
 /// of each row: C/dt^2 would let bodies sink and rebound, the more the shorter the sub-step.

@@ -111,7 +111,11 @@ double largest_acceleration(const Substep& sub, const Block& row, bool of_a) {
   const std::size_t at = index(of_a ? row.a : row.b);
   const Body& body = sub.scene->bodies[at];
   const Vec6 applied = applied_acceleration(sub, at);
-  const MotorsOnBody motors = sub.motors_on.empty() ? MotorsOnBody{} : sub.motors_on[at];
+  MotorsOnBody motors = sub.motors_on.empty() ? MotorsOnBody{} : sub.motors_on[at];
+  if (!sub.drives_on.empty()) {
+    motors.force += sub.drives_on[at].force;
+    motors.torque += sub.drives_on[at].torque;
+  }
   const double turning = sub.u_before[at].tail<3>().squaredNorm();
   const double pushed = applied.head<3>().norm() + motors.force / body.mass;
   if (!is_angle(row)) return pushed + turning * (of_a ? row.r_a : row.r_b).norm();

@@ -45,7 +45,7 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
 double speeds_of(const Block& row, std::span<const Vec6> u);
 
 /// The largest speed that the forces of a sub-step cause along the row of a contact [m/s], or of a
-/// limit, whose bodies motors and joints push too [rad/s or m/s].
+/// limit, whose bodies motors, drives and joints push too [rad/s or m/s].
 double speed_by_forces(const Substep& sub, const Block& row);
 
 /// For contacts that are found along the motion: an overlap is not corrected by velocities, and the

@@ -85,7 +85,7 @@ Accelerations accelerations_at(const Trial& trial, Solver& linear) {
 bool needs_first_changes(const Substep& sub, const State& state) {
   if (sub.probing) return false;
   const bool knows_forces = std::none_of(sub.rows.begin(), sub.rows.end(), [](const Block& block) {
-    return is_grab(block) || (block.is_bounded() && block.phi[0] <= 0.0);
+    return is_grab(block) || block.is_motor() || (block.is_bounded() && block.phi[0] <= 0.0);
   });
   if (!knows_forces) return false;
   const std::vector<int>& moving = sub.part->moving;

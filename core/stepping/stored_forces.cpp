@@ -28,8 +28,8 @@ void seed(const Substep& sub, const State& state, const StoredForce& force, Bloc
 
 bool forces_are_stored(const Substep& sub) {
   const Effects& effects = sub.scene->effects;
-  return effects.contact || effects.limits || effects.motors ||
-         starts_from_last_forces(sub.settings) || springs_are_stored(sub);
+  return effects.contact || acts_on_coordinates(effects) || starts_from_last_forces(sub.settings) ||
+         springs_are_stored(sub);
 }
 
 std::size_t StoredForceIndex::find(std::span<const StoredForce> forces, std::uint64_t id,
@@ -86,6 +86,7 @@ void store_forces(const Substep& sub, const State& state, std::vector<StoredForc
       force.active_set[row] = block.active_set[row];
     }
     sub.integrator->store(sub, state, block, force);
+    if (block.is_motor()) force.elastic[0] = block.elastic[0];
     if (!soft || is_grab(block)) continue;
     if (block.is_unilateral()) {
       force.elastic[0] = -block.C[0] * block.lambda[0];

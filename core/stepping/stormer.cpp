@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "core/constraints/coordinate_stage.hpp"
 #include "core/constraints/grab_rows.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "core/math/free_turn.hpp"
@@ -230,8 +231,9 @@ std::int64_t Stormer::aim_at_poses(const Substep& sub, State& state) {
   std::int64_t flops = aim_flops(sub.rows, std::ssize(sub.part->moving));
   for (Block& block : sub.rows) {
     double gained[kMaxRows];
-    if (!block.is_bounded()) {
+    if (!block.is_bounded() || is_drive(block)) {
       moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
+      if (is_drive(block)) flops += move_flops(block, 1);
     } else if (aims_rolling(sub.settings) && sticks(block)) {
       moved_sliding(block, motions_.of(block.a), motions_.of(block.b), gained + 1);
       flops += move_flops(block, 2);
@@ -253,8 +255,8 @@ std::int64_t Stormer::aim_at_poses(const Substep& sub, State& state) {
     }
     for (int row = 0; row < block.rows; ++row) {
       if (block.C[row] > 0.0 && !(block.spring_ahead[row] > 0.0)) continue;  // its force is given
-      // The bias of a spring belongs to a mean over the sub-step.
-      const double aimed = block.C[row] > 0.0
+      // The bias of a spring or a drive belongs to a mean over the sub-step.
+      const double aimed = block.C[row] > 0.0 || is_drive(block)
                                ? per_g * (block.bias[row] + gained[row] / sub.dt)
                                : per_g / sub.dt * (share * block.phi[row] + gained[row]);
       block.bias[row] = aimed - speed[row];

@@ -12,16 +12,23 @@ namespace {
 
 std::vector<MotorsOnBody> motors_on_bodies(const Scene& scene) {
   std::vector<MotorsOnBody> on;
-  if (!scene.effects.joints || !scene.effects.motors) return on;
+  const Effects& effects = scene.effects;
+  if (!effects.joints || !(effects.motors || effects.drives)) return on;
   on.resize(scene.bodies.size());
   for (const Joint& joint : scene.joints) {
-    const Motor* motor = motor_of(joint);
-    if (motor == nullptr) continue;
+    const Motor* motor = effects.motors ? motor_of(joint) : nullptr;
+    const Drive* drive = effects.drives ? drive_of(joint) : nullptr;
     for (const int body : {base(joint).a, base(joint).b}) {
       if (body == kWorld) continue;
       MotorsOnBody& sum = on[index(body)];
-      (axes_of(joint)->slides ? sum.force : sum.torque) += motor->effort;
-      sum.moves = sum.moves || motor->velocity != 0.0;
+      if (motor != nullptr) {
+        (axes_of(joint)->slides ? sum.force : sum.torque) += motor->effort;
+        sum.moves = sum.moves || motor->velocity != 0.0;
+      }
+      if (drive != nullptr) {
+        sum.creeps = true;
+        sum.moves = sum.moves || drive->velocity != 0.0;
+      }
     }
   }
   return on;
@@ -38,6 +45,7 @@ Substep::Substep(const Scene& of)
   const std::size_t n = of.bodies.size();
   R_WB.resize(n);
   u_start.resize(n);
+  if (of.effects.joints && of.effects.drives) drives_on.resize(n);
   impulse_time.resize(n);
   u_before.resize(n);
   inverse_mass.resize(n);

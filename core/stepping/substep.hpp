@@ -16,11 +16,12 @@ namespace substep {
 class Solver;
 class TimeIntegrator;
 
-/// What the motors of joints can exert on a body.
+/// What the motors or drives of joints can exert on a body.
 struct MotorsOnBody {
   double force = 0.0;   // sum of the largest forces [N]
   double torque = 0.0;  // sum of the largest torques [N m]
   bool moves = false;   // one of them has a velocity: the body does not stay at rest
+  bool creeps = false;  // a drive may bring it slowly to its target
 };
 
 /// The data of one sub-step, in the order in which its parts are computed. Vectors hold one element
@@ -34,7 +35,7 @@ struct Substep {
   const Scene* scene;
   bool has_springs = false;                     // compliant joints
   std::vector<InertiaInverse> inertia_inverse;  // M^-1 about the principal axes
-  std::vector<MotorsOnBody> motors_on;          // empty without motors
+  std::vector<MotorsOnBody> motors_on;          // empty without motors and drives
 
   // The step to take.
   TimeIntegrator* integrator = nullptr;
@@ -51,6 +52,7 @@ struct Substep {
   std::vector<Vec6> u_start;  // at its start [m/s, rad/s]
   std::span<Block> rows;      // phi, J; later bias, softness, impulse
   SolveLimits limits;
+  std::vector<MotorsOnBody> drives_on;    // forces and torques at its start; empty without drives
   std::vector<double> impulse_time;       // duration of applied forces [s]
   std::vector<Vec6> u_before;             // after the gyroscopic torque, before forces and rows
   std::vector<InverseMass> inverse_mass;  // Mt^-1

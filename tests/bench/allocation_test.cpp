@@ -72,7 +72,7 @@ TEST(SolversOfTheWholeSubstep, AllocateNothingAfterTheFirstFrame) {
 }
 
 // The first impact too.
-TEST(LimitsAndMotors, AllocateNothingAfterTheFirstFrame) {
+TEST(LimitsMotorsAndDrives, AllocateNothingAfterTheFirstFrame) {
   SceneBuilder builder("arm");
   int last = kWorld;
   for (int i = 0; i < 3; ++i) {
@@ -81,6 +81,10 @@ TEST(LimitsAndMotors, AllocateNothingAfterTheFirstFrame) {
     const int hinge = builder.add_hinge(body, last, {0.5 * i, 0.0, 0.0}, Vec3::UnitZ());
     builder.limit(hinge, -0.4, 0.6, 0.5);
     if (i == 2) builder.drive(hinge, 2.0, 1.5);
+    if (i > 0) builder.rub(hinge, 0.1);
+    if (i == 1) {
+      builder.drive(hinge, {.target = 1.0, .stiffness = 20.0, .damping = 1.0, .effort = 5.0});
+    }
     last = body;
   }
   EXPECT_EQ(allocated(*builder.build(), substep::Settings{}), 0);

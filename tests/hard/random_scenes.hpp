@@ -125,6 +125,17 @@ inline void join(Scene& scene, int a, int b, const Vec3& point) {
         {lower, upper, one_in(2) ? 0.0 : number(0.0, 1.0)}, turned(a, v1), turned(b, v1)};
   }
   if (one_in(4)) hinge.motor = AngularMotor{{number(-50.0, 50.0), magnitude(1e-6, 1e6)}};
+  if (one_in(4)) {
+    Vec3 v1;
+    Vec3 v2;
+    across(axis, v1, v2);
+    Drive drive{.target = number(-20.0, 20.0), .velocity = number(-5.0, 5.0)};
+    drive.stiffness = one_in(4) ? 0.0 : magnitude(1e-9, 1e9);
+    drive.damping = one_in(4) && drive.stiffness > 0.0 ? 0.0 : magnitude(1e-9, 1e9);
+    if (one_in(2)) drive.effort = magnitude(1e-6, 1e6);
+    hinge.drive = AngularDrive{drive, turned(a, v1), turned(b, v1)};
+  }
+  if (one_in(4)) hinge.friction = magnitude(1e-6, 1e6);
   scene.joints.emplace_back(hinge);
 }
 
@@ -234,6 +245,8 @@ inline Scene any_scene() {
   effects.friction = effects.contact && has(&Body::friction);
   effects.limits = needs_limits(scene);
   effects.motors = needs_motors(scene);
+  effects.drives = needs_drives(scene);
+  effects.joint_friction = needs_joint_friction(scene);
   const bool limits_rebound =
       std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
         const Limit* limit = limit_of(joint);

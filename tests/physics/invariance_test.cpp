@@ -105,7 +105,7 @@ TEST(Invariance, AMirroredSceneMovesAsItsImage) {
   }
 }
 
-/// Hinges and a slide in space whose limits rebound, and motors.
+/// Hinges and a slide in space whose limits rebound, motors, drives and dry friction.
 Scene limited_linkage() {
   SceneBuilder builder("limited_linkage");
   const Vec3 half{0.25, 0.04, 0.03};
@@ -118,7 +118,12 @@ Scene limited_linkage() {
     const int joint = i == 2 ? builder.add_prismatic(body, last, at, Vec3::UnitX())
                              : builder.add_hinge(body, last, at, axis);
     builder.limit(joint, -0.02, 0.03, 0.5);
-    if (i != 1) builder.drive(joint, 0.5, 4.0);
+    if (i >= 2) builder.rub(joint, 0.25);
+    if (i == 1 || i == 2) {
+      builder.drive(joint, {.target = 0.01, .velocity = 0.2, .stiffness = 64.0, .damping = 2.0});
+    } else {
+      builder.drive(joint, 0.5, 4.0);
+    }
     last = body;
   }
   builder.scene().frame = 1.0 / 64.0;

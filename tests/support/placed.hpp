@@ -79,6 +79,16 @@ inline Scene in_units(Scene scene, double mass, double length, double time = 1.0
               of.motor->velocity *= slides ? speed : 1.0 / time;
               of.motor->effort *= mass * speed / time * (slides ? 1.0 : length);
             }
+            if (of.friction) *of.friction *= mass * speed / time * (slides ? 1.0 : length);
+            if (of.drive) {
+              const double effort = mass * speed / time * (slides ? 1.0 : length);
+              const double unit = slides ? length : 1.0;
+              of.drive->target *= unit;
+              of.drive->velocity *= unit / time;
+              of.drive->stiffness *= effort / unit;
+              of.drive->damping *= effort / unit * time;
+              if (of.drive->effort) *of.drive->effort *= effort;
+            }
           }
         },
         joint);

@@ -270,18 +270,21 @@ TEST(SlideTravel, GradientAndStiffnessMatchFiniteDifferences) {
 TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   Scene scene;
   scene.effects.joints = scene.effects.limits = scene.effects.motors = true;
+  scene.effects.drives = scene.effects.joint_friction = true;
   scene.bodies = {moving(Sphere{0.1}), moving(Sphere{0.1})};
   HingeJoint hinge;
   hinge.b = 1;
   hinge.limit = AngleLimit{{-1.0, 1e-4, 0.0}, Vec3::UnitX(), Vec3::UnitX()};
   hinge.motor = AngularMotor{{1.0, 2.0}};
+  hinge.drive = AngularDrive{{.stiffness = 3.0}};
+  hinge.friction = 4.0;
   scene.joints = {BallJoint{}, hinge};
   CoordinateStage stage(scene);
-  EXPECT_EQ(stage.size(), 3U);
+  EXPECT_EQ(stage.size(), 5U);
   Blocks blocks;
   const State state = initial_state(scene);
   stage.append(whole(scene), state, rotations(state), 0.01, true, blocks);
-  ASSERT_EQ(blocks.size(), 2U) << "the upper bound, which is closed, and the motor";
+  ASSERT_EQ(blocks.size(), 4U) << "the upper bound, which is closed, motor, drive and friction";
   for (const Block& block : blocks.all()) {
     EXPECT_TRUE(CoordinateStage::is_id(block.id));
     EXPECT_FALSE(is_contact_id(block.id));
@@ -291,9 +294,14 @@ TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   EXPECT_TRUE(blocks.all()[0].is_unilateral());
   EXPECT_TRUE(blocks.all()[1].is_motor());
   EXPECT_EQ(stage.motor(blocks.all()[1]).effort, 2.0);
+  EXPECT_FALSE(is_drive(blocks.all()[1]));
+  EXPECT_TRUE(is_drive(blocks.all()[2]));
+  EXPECT_EQ(stage.drive(blocks.all()[2]).stiffness, 3.0);
+  EXPECT_TRUE(is_joint_friction(blocks.all()[3]));
+  EXPECT_EQ(stage.friction(blocks.all()[3]), 4.0);
   blocks.clear();
   stage.append(whole(scene), state, rotations(state), 0.01, false, blocks);
-  EXPECT_EQ(blocks.size(), 2U) << "the lower bound is far";
+  EXPECT_EQ(blocks.size(), 4U) << "the lower bound is far";
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ class SceneBitsWriter {
   }
   void add(const Effects& e) {
     for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution,
-                         e.external, e.limits, e.motors})
+                         e.external, e.limits, e.motors, e.drives, e.joint_friction})
       add(b);
   }
   void add(const Body& b) {
@@ -92,6 +92,16 @@ class SceneBitsWriter {
     if (const Motor* motor = motor_of(joint)) {
       add(motor->velocity);
       add(motor->effort);
+    }
+    add(friction_of(joint).value_or(0.0));
+    if (const AngularDrive* drive = angular_drive_of(joint)) {
+      add(drive->across_a);
+      add(drive->across_b);
+    }
+    if (const Drive* drive = drive_of(joint)) {
+      for (const double x : {drive->target, drive->velocity, drive->stiffness, drive->damping,
+                             drive->effort.value_or(-1.0)})
+        add(x);
     }
   }
   SceneBits take() { return std::move(bits_); }

@@ -233,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(
                 R"("friction"],)",
                 R"("friction", "magnetism"],)",
                 {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
-                 "external, limits or motors, not \"magnetism\""}},
+                 "external, limits, motors, drives or joint_friction, not \"magnetism\""}},
         BadFile{"EffectOfForcesMissing",
                 R"("shape": {"type": "sphere")",
                 R"("force": [0, 0, 0], "torque": [0, 1, 0], "shape": {"type": "sphere")",
@@ -477,7 +477,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"/format: must be \"substep-scene\", not \"gltf\""}}),
     kind_of);
 
-/// The valid scene with a limit or a motor of its hinge.
+/// The valid scene with a limit, a motor or a drive of its hinge.
 List problems_with(const std::string& part, const std::string& effects) {
   const std::string axis = R"("axis_b": [0, 0, 1])";
   return problems_of(with(axis, axis + ", " + part, with(R"("friction"])", effects)));
@@ -521,6 +521,44 @@ TEST(SceneProblems, OfLimitsAndMotors) {
             List{"/effects: \"motors\" is missing, but /joints/0/motor is given"});
   EXPECT_EQ(problems_with(R"("limit": {"upper": 1, )" + across, R"("friction"])"),
             List{"/effects: \"limits\" is missing, but /joints/0/limit is given"});
+}
+
+TEST(SceneProblems, OfDrives) {
+  const std::string across = R"("across_a": [1, 0, 0], "across_b": [1, 0, 0]})";
+  const std::string listed = R"("friction", "drives"])";
+  const auto drive = [&](const std::string& numbers) {
+    return problems_with(R"("drive": {)" + numbers + ", " + across, listed);
+  };
+  EXPECT_EQ(drive(R"("target": 20, "velocity": 1, "stiffness": 1e5, "torque": 3)"), List{});
+  EXPECT_EQ(drive(R"("damping": 2)"), List{});
+  EXPECT_EQ(drive(R"("target": 1)"), List{"/joints/0/drive: stiffness or damping must be above 0"});
+  EXPECT_EQ(drive(R"("stiffness": -1, "damping": 1e13, "torque": 0)"),
+            (List{"/joints/0/drive/stiffness: must be at least 0 (N m/rad), not -1",
+                  "/joints/0/drive/damping: must be at most 1e12 (N m s/rad), not 1e13",
+                  "/joints/0/drive/torque: must be above 0 (N m), not 0"}));
+  EXPECT_EQ(drive(R"("stiffness": 1, "target": 2e6)"),
+            List{"/joints/0/drive/target: must be at most 1e6 (rad), not 2e6"});
+  EXPECT_EQ(drive(R"("stiffness": 1, "force": 2)"),
+            List{"/joints/0/drive/force: unknown key (known here: target, velocity, stiffness, "
+                 "damping, torque, across_a or across_b)"});
+  EXPECT_EQ(problems_with(R"("drive": {"stiffness": 1})", listed),
+            (List{"/joints/0/drive/across_a: missing", "/joints/0/drive/across_b: missing"}));
+  EXPECT_EQ(problems_with(R"("drive": {"stiffness": 1, "across_a": [1, 0, 0], )"
+                          R"("across_b": [0, 0.6, 0.8]})",
+                          listed),
+            List{"/joints/0/drive: across_b must be perpendicular to the axis: the cosine of their "
+                 "angle is 0.8, which is more than 1e-6"});
+  EXPECT_EQ(problems_with(R"("drive": {"stiffness": 1, )" + across, R"("friction"])"),
+            List{"/effects: \"drives\" is missing, but /joints/0/drive is given"});
+}
+
+TEST(SceneProblems, OfJointFriction) {
+  const std::string listed = R"("friction", "joint_friction"])";
+  EXPECT_EQ(problems_with(R"("friction": 0.5)", listed), List{});
+  EXPECT_EQ(problems_with(R"("friction": 0)", listed),
+            List{"/joints/0/friction: must be above 0 (N m), not 0"});
+  EXPECT_EQ(problems_with(R"("friction": 1)", R"("friction"])"),
+            List{"/effects: \"joint_friction\" is missing, but /joints/0/friction is given"});
 }
 
 }  // namespace

@@ -96,10 +96,14 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
   auto hinge = std::get<HingeJoint>(scenes::pendulum().joints[0]);
   hinge.limit.emplace();
   hinge.motor.emplace();
+  hinge.drive.emplace();
+  hinge.friction = 1.0;
   scene.joints.emplace_back(hinge);
   PrismaticJoint slide;
   slide.limit.emplace();
   slide.motor.emplace();
+  slide.drive.emplace();
+  slide.friction = 1.0;
   scene.joints.emplace_back(slide);
   scene.joints.emplace_back(WeldJoint{});
   scene.joints.emplace_back(DistanceJoint{});
@@ -125,8 +129,10 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
       {"/$defs/shape/oneOf/2", "/bodies/0/shape"},
       {"/$defs/angle_limit", joint(3) + "/limit"},
       {"/$defs/angular_motor", joint(3) + "/motor"},
+      {"/$defs/angular_drive", joint(3) + "/drive"},
       {"/$defs/travel_limit", joint(2) + "/limit"},
       {"/$defs/linear_motor", joint(2) + "/motor"},
+      {"/$defs/linear_drive", joint(2) + "/drive"},
       {"/$defs/joint/oneOf/0", "/joints/0"},
       {"/$defs/joint/oneOf/1", joint(3)},
       {"/$defs/joint/oneOf/2", joint(2)},

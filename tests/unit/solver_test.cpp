@@ -16,7 +16,7 @@ std::vector<Eigen::VectorXd> enumerate(const RandomSystem& problem) {
   const auto n = d.q.size();
   std::vector<Eigen::Index> boxed;
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (problem.blocks[d.rows[static_cast<std::size_t>(i)].block].is_bounded()) boxed.push_back(i);
+    if (problem.blocks[d.rows[static_cast<std::size_t>(i)].block].binds()) boxed.push_back(i);
   }
   int sets = 1;
   for (std::size_t i = 0; i < boxed.size(); ++i) sets *= 3;
@@ -87,6 +87,11 @@ TEST_P(EverySolver, MatchesTheEnumeratedSolutionWithMotors) {
   for (int trial = 0; trial < 300; ++trial) {
     RandomSystem problem = random_system(
         random, {.joints = trial % 3, .contacts = trial % 3, .motors = 1 + trial % 3});
+    for (Block& block : problem.blocks) {  // drives without a bound
+      if (!block.is_motor() || random() % 4 > 0) continue;
+      block.hi = kAnyEffort;
+      block.lo = -kAnyEffort;
+    }
     const auto solutions = enumerate(problem);
     ASSERT_FALSE(solutions.empty());
     EXPECT_EQ(solver->solve(problem.system(), settings_for(GetParam())).status,

@@ -113,6 +113,23 @@ test("HTML has the same text and two buttons for the keyboard", async () => {
   await leave(page);
 });
 
+test("without JavaScript the page says what it is, with a picture", async () => {
+  for (const [width, height] of [[1280, 720], [390, 844]]) {
+    const context = await session.browser.newContext(
+      { javaScriptEnabled: false, viewport: { width, height } });
+    const page = await context.newPage();
+    await page.goto(session.address);
+    const card = page.locator(".substep-plain .substep-card");
+    await card.click({ trial: true }); // it is visible, and nothing covers it
+    assert.match(await card.textContent(), /stable constrained rigid bodies.*needs JavaScript/s);
+    const box = await card.locator("img").boundingBox();
+    assert.ok(box.width > 250 && box.height > 140 && box.y >= 0, JSON.stringify(box));
+    assert.equal(await page.locator("#laboratory").isVisible(), false);
+    await save(page, `no-javascript-${width}`);
+    await context.close();
+  }
+});
+
 test("a laboratory in an article starts without it", async () => {
   const page = await openPage(session, { path: "example/article.html", first: true });
   const shown = await page.evaluate(() => Object.values(window.laboratories)

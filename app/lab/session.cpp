@@ -144,7 +144,12 @@ void Session::continue_in(Scene scene, std::function<State(State)> carry) {
   if (scene_edited) scene_edited({from, scene_, state().frame, std::move(carry)});
 }
 
-Scene Session::as_scene() const { return edition_of(*scene_, state(), settings()); }
+Scene Session::as_scene() const {
+  Scene out = edition_of(*scene_, state(), settings());
+  // The recommendation was found for the scene as loaded.
+  if (scene_ != loaded_) out.recommended.reset();
+  return out;
+}
 
 const Session::Edition* Session::edition() const {
   for (const Edition& edition : editions_) {

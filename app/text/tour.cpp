@@ -82,9 +82,10 @@ std::span<const TourStep> tour_steps() {
         .reply = reply_changing_load},
        {.title = "What does accuracy cost?",
         .text =
-            "Sometimes nothing. Leapfrog applies gravity from the middle of one sub-step to the "
-            "middle of the next. At alpha = 0.1 its energy error is below a millionth, with as "
-            "many sub-steps as the orange ghost, which is Euler. This run has alpha = {alpha}.",
+            "Sometimes nothing. Adaptive steps buy safety; the order of a method buys accuracy. "
+            "Leapfrog applies gravity from the middle of one sub-step to the middle of the next. "
+            "At alpha = 0.1 its energy error is below a millionth, with as many sub-steps as the "
+            "orange ghost, which is Euler. This run has alpha = {alpha}.",
         .watch = "Watch [the energy drift](drift). [Error against cost](accuracy) shows all "
                  "methods.",
         .task = "Save half the sub-steps: raise alpha to 0.4.",

@@ -193,11 +193,13 @@ test("and the command are copied from the menu", async () => {
   assert.match(html, /^<iframe src="[^"]+&amp;[^"]+" title="substep: Swinging box"/);
   const outer = await session.browser.newContext({ serviceWorkers: "block" });
   const article = await outer.newPage();
-  await article.goto(`${session.address}files.json`);
-  await article.setContent(html);
+  const theirs = `${session.address}theirs.html`;
+  await article.route(theirs, (route) => route.fulfill({ contentType: "text/html", body: html }));
+  await article.goto(theirs);
   const inner = await (await article.waitForSelector("iframe")).contentFrame();
   await inner.waitForFunction(() => window.substep?.report().mode === "const", null, { timeout: 60000 });
   await outer.close();
+  await call(page, "reset");
   assert.equal(await copied("Copy command"), "./dev cli run swinging_box --mode const --n 9");
   assert.equal(await call(page, "command"), "./dev cli run swinging_box --mode const --n 9");
   await leave(page);

@@ -220,6 +220,19 @@ TEST(Past, IsFoundByTime) {
   EXPECT_EQ(past.at_time(100.0), 60U);
 }
 
+// A recommendation is of the scene that was swept, not of the same without gravity.
+TEST(Session, SavedAfterAnEditItHasNoRecommendation) {
+  Session session(shipped("swinging_box"));
+  ASSERT_TRUE(session.loaded().recommended.has_value());
+  EXPECT_EQ(session.as_scene().recommended, session.loaded().recommended);
+  Effects effects = session.scene().effects;
+  effects.gravity = false;
+  session.set_effects(effects);
+  EXPECT_FALSE(session.as_scene().recommended.has_value());
+  session.reset();
+  EXPECT_TRUE(session.as_scene().recommended.has_value());
+}
+
 TEST(Substep, ContinuesToTheSameFrame) {
   Session whole(shipped("swinging_box"));
   Session pieces(shipped("swinging_box"));

@@ -50,6 +50,7 @@ test("Try it opens the laboratory, also at later visits", async () => {
   const page = await openPage(session, { first: true });
   await introduced(page, true);
   assert.equal(await page.evaluate(() => location.hash), "", "the address is no longer plain");
+  await drawn(page); // a click before the first picture would hit nothing
   await click(page, "Try it");
   await introduced(page, false);
   const report = await call(page, "report");

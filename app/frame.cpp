@@ -45,6 +45,8 @@ void update_look(App& app) {
     app.look.m.row = row;
     app.look.m.section = section;
     ui::apply_style(app.look);
+    // A finger's target of 44 pixels, around a control of 32.
+    if (touch) ImGui::GetStyle().TouchExtraPadding = {6.0F, 6.0F};
   }
 }
 
@@ -65,13 +67,16 @@ void take_capture(App& app, int width, int height) {
   app.desk.capture.reset();
 }
 
-// Draws the window once more, without presenting it, and saves a part of it as SVG.
+// Draws a figure beside the window's panels, without presenting them, and saves it as SVG.
 void take_figure(App& app) {
   const Figure figure = *std::exchange(app.desk.figure, std::nullopt);
   if (!app.host.save_file) return;
   app.renderer->present(true);  // its panels are drawn once more
+  ui::Look paper = app.look;
+  paper.theme = &ui::light_theme();
   const ui::FigureFrame drawing;
   ImGui::NewFrame();
+  const WindowPart part = ui::figure_window(paper, figure);
   ui::forget_handles();
   ui::draw_window(app);
   ui::draw_over_picture(app);
@@ -82,7 +87,7 @@ void take_figure(App& app) {
   about["link"] = app.link();
   about["citation"] = std::string(kPaperAuthors) + ", " + kPaperTitle + ", doi:" + kPaperDoi;
   app.host.save_file(figure.name,
-                     ui::svg_figure(app.look, *ImGui::GetDrawData(), figure.part,
+                     ui::svg_figure(paper, *ImGui::GetDrawData(), part, figure.millimetres,
                                     {app.session.scene().title, app.command(), about.dump()}));
 }
 
@@ -162,7 +167,11 @@ void frame(App& app, double wall_dt, bool whole) {
   app.introduction.follow(app, !app.desk.reduced_motion);
   app.tour.follow(app);
   const auto begun = std::chrono::steady_clock::now();
-  if (!app.compare.behind(app.session)) app.session.advance(wall_dt);
+  if (app.seeking()) {
+    app.continue_seek(kSlice);
+  } else if (!app.compare.behind(app.session)) {
+    app.session.advance(wall_dt);
+  }
   if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {
     app.session.pause();
     app.pause_at = 0.0;  // playing again continues past the end

@@ -83,13 +83,28 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     clearTimeout(timer);
     timer = setTimeout(write, settled);
   };
-  host.copyLink = async () => {
-    const text = await url();
+  /** Copies the address. @param more further parts of the fragment, each after an "&" */
+  host.copyLink = async (more) => {
+    const text = await url() + more;
     const own = wasm.ownScene() !== "";
     if (!(await host.copyText(text))) return;
     wasm.tell(own && !text.includes("scene64=")
       ? "Link copied, but this scene is too large for it, so send its file as well" : "Link copied");
     host.changed?.();
+  };
+
+  /** Copies HTML that shows the laboratory within another page. */
+  host.copyEmbed = async () => {
+    const escaped = (text) => text.replace(/&/g, "&amp;").replace(/"/g, "&quot;").replace(/</g, "&lt;");
+    const title = escaped(JSON.parse(wasm.report()).title);
+    const html = `<iframe src="${escaped(await url())}" title="substep: ${title}" width="960" ` +
+      'height="600" style="border: 0" loading="lazy"></iframe>';
+    if (!(await host.copyText(html))) return;
+    wasm.tell("HTML copied: paste it into a page");
+    host.changed?.();
+  };
+  host.openArticle = () => {
+    window.open(new URL("example/article.html", import.meta.url).href, "_blank", "noopener");
   };
 
   return {

@@ -68,7 +68,7 @@ export function makeFiles(frame, wasm, host, readScene) {
     const href = URL.createObjectURL(blob);
     Object.assign(document.createElement("a"), { href, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(href), 60000);
-    tell(`${name} was passed to the browser's downloads`);
+    tell(`${name} was saved to Downloads`);
   }
 
   host.saveFile = save;

@@ -10,6 +10,8 @@ ${wholePage ? '<section class="substep-tour" hidden></section>' : ""}
 <section class="substep-twin" id="${id}-twin" aria-label="State of the simulation"></section>
 <div class="substep-overlay">
   <div class="substep-card">
+    <img class="substep-picture" width="880" height="495" hidden
+      alt="A box of 1000 kg swings on a chain of light links; plots show sub-steps and energy.">
     <h2></h2>
     <p></p>
     <progress max="1" value="0" aria-label="Loading"></progress>
@@ -38,9 +40,12 @@ export function makeFrame(element, wholePage) {
   const message = overlay.querySelector("p");
   const bar = overlay.querySelector("progress");
   const button = overlay.querySelector("button");
+  const picture = overlay.querySelector("img");
 
-  const say = (title, text, { working = false, answer = "" } = {}) => {
+  const say = (title, text, { working = false, answer = "", pictured = false } = {}) => {
     overlay.hidden = false;
+    picture.hidden = !pictured;
+    if (pictured) picture.src = new URL("picture.jpg", import.meta.url).href;
     overlay.setAttribute("role", working ? "status" : "alert");
     heading.textContent = title;
     message.textContent = text;

@@ -8,7 +8,9 @@
 // The bodies are JavaScript.
 // clang-format off
 EM_JS(void, host_link_changed, (), { Module["host"].linkChanged(); })
-EM_JS(void, host_copy_link, (), { Module["host"].copyLink(); })
+EM_JS(void, host_copy_link, (const char* more), { Module["host"].copyLink(UTF8ToString(more)); })
+EM_JS(void, host_copy_embed, (), { Module["host"].copyEmbed(); })
+EM_JS(void, host_open_article, (), { Module["host"].openArticle(); })
 EM_JS(void, host_copy_text, (const char* text), { Module["host"].copyText(UTF8ToString(text)); })
 EM_JS(void, host_open_file, (), { Module["host"].openFile(); })
 EM_JS(void, host_save_file, (const char* name, const char* bytes, int size), {
@@ -38,7 +40,9 @@ std::string pasted;
 Host page_host() {
   Host host;
   host.link_changed = [](const std::string&) { host_link_changed(); };
-  host.copy_link = host_copy_link;
+  host.copy_link = [](const std::string& more) { host_copy_link(more.c_str()); };
+  host.copy_embed = host_copy_embed;
+  host.open_article = host_open_article;
   host.open_file = host_open_file;
   host.save_file = [](const std::string& name, const std::string& bytes) {
     host_save_file(name.c_str(), bytes.data(), static_cast<int>(bytes.size()));

@@ -17,6 +17,7 @@ const types = {
   ".json": "application/json",
   ".mjs": "text/javascript",
   ".png": "image/png",
+  ".jpg": "image/jpeg",
   ".svg": "image/svg+xml",
   ".ttf": "font/ttf",
   ".wasm": "application/wasm",

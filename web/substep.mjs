@@ -74,9 +74,10 @@ export async function createSubstep(element, options) {
   const frame = makeFrame(element, chosen.wholePage);
   const { lacking, renderer } = inspect();
   if (lacking) {
-    frame.say("This browser cannot show substep", `It needs ${lacking}, which is unavailable or ` +
-      "switched off here. A current Firefox, Chrome, Edge or Safari has it; on some machines " +
-      "graphics acceleration must be on.");
+    frame.say("This browser cannot show substep", "It is a laboratory for stable constrained rigid " +
+      `bodies. It needs ${lacking}, which is unavailable or switched off here. A current Firefox, ` +
+      "Chrome, Edge or Safari has it; on some machines graphics acceleration must be on.",
+    { pictured: true });
     throw new Error(`substep needs ${lacking}`);
   }
   try {

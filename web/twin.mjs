@@ -43,6 +43,15 @@ export function makeTwin(section, calls) {
   fill(mode, choices("mode"));
   fill(solver, choices("solver"));
 
+  // The canvas makes room for the controls while these are in sight.
+  const host = section.parentElement;
+  const makeRoom = () => {
+    const shown = section.contains(document.activeElement);
+    host.style.setProperty("--substep-bar", shown ? `${section.offsetHeight}px` : "0px");
+  };
+  section.addEventListener("focusin", makeRoom);
+  section.addEventListener("focusout", () => setTimeout(makeRoom)); // until the focus is elsewhere
+
   form.addEventListener("submit", (event) => event.preventDefault());
   form.addEventListener("change", ({ target }) => {
     const { problems } = calls.set({ [target.name]: target.value });
@@ -111,7 +120,7 @@ export function makeTwin(section, calls) {
     put(scene, r.scene);
     put(mode, r.mode);
     put(solver, r.solver);
-    put(alpha, String(r.alpha));
+    put(alpha, String(Number(r.alpha.toPrecision(6))));
     play.textContent = r.playing ? "Pause" : "Play";
     // Announces only relevant changes, not every changing number.
     const run = [r.title, r.mode, state, r.verdict].join(", ");

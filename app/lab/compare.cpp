@@ -59,12 +59,13 @@ void Compare::begin(Run& run, const Session& session) {
   run.simulator->set_state(session.state());
   run.report = run.simulator->observe();
   run.verdict.emplace(*scene_, session.state(), run.report);
+  run.account.start(run.report);
   run.history.start(run.report, scene_->frame, scene_->criteria.energy_scale.value_or(0.0));
   run.previous = {session.state().x, session.state().q};
   run.poses = run.previous;
   run.cost = {};
   run.divergence.reset();
-  run.checkpoints.assign(1, {scene_, session.state(), *run.verdict, run.cost});
+  run.checkpoints.assign(1, {scene_, session.state(), *run.verdict, run.cost, run.account});
 }
 
 void Compare::use_scene(Run& run, const std::shared_ptr<const Scene>& scene) const {
@@ -124,7 +125,8 @@ bool Compare::step(Run& run, FrameSlices::Clock::time_point until) {
   run.report = *ended;
   run.verdict->add(*run.scene, state, run.report);
   if (run.report.status != StepStatus::kOk) return true;
-  run.history.add(run.report, run.verdict->holds());
+  run.account.add(run.report, run.simulator->grab().has_value());
+  run.history.add(run.report, run.account.put_in());
   add_frame(run.cost, run.report);
   if (state.frame % kCheckpointFrames != 0) return true;
   if (run.checkpoints.size() >= kMostCheckpoints) {
@@ -132,7 +134,7 @@ bool Compare::step(Run& run, FrameSlices::Clock::time_point until) {
     std::size_t i = 0;
     std::erase_if(run.checkpoints, [&i](const auto&) { return i++ % 2 == 1; });
   }
-  run.checkpoints.push_back({run.scene, state, *run.verdict, run.cost});
+  run.checkpoints.push_back({run.scene, state, *run.verdict, run.cost, run.account});
   return true;
 }
 
@@ -233,6 +235,7 @@ void Compare::seek(Run& run, const Session& session, std::int64_t frame,
     run.simulator->set_state(list.back().state);
     run.verdict = list.back().verdict;
     run.cost = list.back().cost;
+    run.account = list.back().account;
     run.report = run.simulator->observe();
     run.previous = {list.back().state.x, list.back().state.q};
     run.history.cut(list.back().state.time);
@@ -245,6 +248,7 @@ void Compare::seek(Run& run, const Session& session, std::int64_t frame,
       State carried = edit->carry(run.simulator->state());
       use_scene(run, edit->to);
       run.simulator->set_state(std::move(carried));
+      run.account.edited(run.simulator->observe());
       run.verdict->disturb(run.simulator->state().time);
       run.previous = {run.simulator->state().x, run.simulator->state().q};
     } else if (run.simulator->state().frame < frame) {

@@ -39,6 +39,7 @@ class Compare {
     std::optional<Verdict> verdict;
     FrameReport report;
     History history;
+    EnergyAccount account;
     Poses poses;  // to draw, interpolated like the session's
     Cost cost;
     std::optional<Divergence> divergence;
@@ -52,6 +53,7 @@ class Compare {
       State state;
       Verdict verdict;
       Cost cost;
+      EnergyAccount account;
     };
     std::vector<Checkpoint> checkpoints;  // oldest first
   };

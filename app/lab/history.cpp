@@ -85,11 +85,9 @@ void History::start(const FrameReport& report, double frame, double exchanged) {
   energy_at_start_ = report.energy;
   potential_at_start_ = report.potential;
   exchanged_ = exchanged;
-  lowest_ = 0.0;
-  failed_at_.reset();
 }
 
-void History::add(const FrameReport& report, bool holds) {
+void History::add(const FrameReport& report, double put_in) {
   // A tenth is dropped at a time: samples stay contiguous and adding one stays cheap.
   if (size() >= kCapacity) {
     constexpr std::size_t kBlock = Samples::kLargestBlock;
@@ -105,13 +103,12 @@ void History::add(const FrameReport& report, bool holds) {
   add_to(Channel::kLimit, 0.5 * frame_ * std::sqrt(report.leader.r));  // Eqs. 10, 11, alpha = 1
   add_to(Channel::kKinetic, report.kinetic);
   add_to(Channel::kPotential, report.potential - potential_at_start_);
-  if (!failed_at_) {
-    lowest_ = std::min(lowest_, static_cast<double>((*this)[Channel::kPotential].back()));
-  }
-  if (!holds && !failed_at_) failed_at_ = report.time;
-  add_to(Channel::kTotal, report.kinetic + (report.potential - potential_at_start_));
+  add_to(Channel::kElastic, report.springs);
+  add_to(Channel::kTotal,
+         report.kinetic + (report.potential - potential_at_start_) + report.springs);
+  add_to(Channel::kPutIn, put_in);
   // Subtract in double precision: a drift is many orders smaller than the energies.
-  add_to(Channel::kDrift, report.energy - energy_at_start_);
+  add_to(Channel::kDrift, report.energy - energy_at_start_ - put_in);
   add_to(Channel::kJointError, report.constraint_error);
   add_to(Channel::kJointGap, report.joint_gap);
   add_to(Channel::kPenetration, report.penetration);
@@ -123,12 +120,18 @@ void History::add(const FrameReport& report, bool holds) {
   add_to(Channel::kTimeStiffness, 1e3 * report.times.stiffness);
 }
 
-double History::potential_offset() const { return std::max(exchanged_, -lowest_); }
+bool History::has_springs() const {
+  return samples(Channel::kElastic).extent(0, size()).high > 0.0F;
+}
 
-double History::largest_drift() const {
-  const Extent all = samples(Channel::kDrift).extent(0, size());
+double History::largest_size(Channel channel) const {
+  const Extent all = samples(channel).extent(0, size());
   return all.empty() ? 0.0 : static_cast<double>(std::max(-all.low, all.high));
 }
+
+double History::largest_drift() const { return largest_size(Channel::kDrift); }
+
+double History::largest_potential() const { return largest_size(Channel::kPotential); }
 
 double History::largest_kinetic() const {
   const Extent all = samples(Channel::kKinetic).extent(0, size());
@@ -139,10 +142,6 @@ void History::cut(double time) {
   const double count = std::floor((time - first_time_) / frame_ + 0.5) + 1.0;
   const auto kept = static_cast<std::size_t>(std::clamp(count, 0.0, static_cast<double>(size())));
   for (Samples& samples : channels_) samples.truncate(kept);
-  if (failed_at_ && end_time() > *failed_at_ - 0.5 * frame_) return;  // the zero stays
-  failed_at_.reset();
-  const Extent all = samples(Channel::kPotential).extent(0, size());
-  lowest_ = all.empty() ? 0.0 : std::min(0.0, static_cast<double>(all.low));
 }
 
 History::Slice History::between(double t0, double t1) const {

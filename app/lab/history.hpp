@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,8 +18,10 @@ enum class Channel : std::uint8_t {
   kLimit,        // N at alpha = 1: fewer is unstable [-], 0 if K is not known
   kKinetic,      // [J]
   kPotential,    // minus that at the start [J]
-  kTotal,        // the sum of these two [J]
-  kDrift,        // change of the total energy since the start: 0, ideally [J]
+  kElastic,      // in springs and soft contacts [J]
+  kTotal,        // the sum of these three [J]
+  kPutIn,        // work of the user since the start: throws, pulls, edits [J]
+  kDrift,        // change of the total energy since the start, without that work: 0, ideally [J]
   kJointError,   // sum of |phi| of joint rows, springs excepted [m, rad]
   kJointGap,     // largest distance between the anchors of a joint [m]
   kPenetration,  // largest overlap of a contact [m]
@@ -74,10 +75,10 @@ class History {
       std::size_t{60} * 600;  // ten minutes at 60 frames a second
 
   /// @param frame duration of a frame [s]
-  /// @param exchanged energy that the motion is known to exchange [J], 0 if it is not known
+  /// @param exchanged energy that the scene says its motion exchanges [J], 0 if it says none
   void start(const FrameReport& report, double frame, double exchanged = 0.0);
-  /// @param holds false from the frame on at which the run fails: the zero of the potential stays
-  void add(const FrameReport& report, bool holds = true);
+  /// @param put_in work of the user since the start [J]
+  void add(const FrameReport& report, double put_in = 0.0);
   /// Discards samples later than `time` [s].
   void cut(double time);
 
@@ -102,13 +103,16 @@ class History {
   /// Value of the sample nearest to a time; NaN if there is none within a frame.
   [[nodiscard]] double at(Channel channel, double time) const;
   [[nodiscard]] double potential_at_start() const { return potential_at_start_; }  ///< [J]
-  /// Offset added to the potential and to the total so that the lowest potential is 0 [J], or that
-  /// of the start is the energy that the motion is known to exchange if this is more. The zero of a
-  /// potential is arbitrary; this one keeps kinetic, potential and total energy on one readable
-  /// scale, which does not change during the first fall, nor after a failure.
-  [[nodiscard]] double potential_offset() const;
+  /// The potential energy at the start in the plots, added to the samples of the potential and of
+  /// the total [J]: what the scene says its motion exchanges, so that the lowest point is near
+  /// zero, else zero. It never changes during a run.
+  [[nodiscard]] double potential_offset() const { return exchanged_; }
+  /// Whether springs or soft contacts have held energy so far.
+  [[nodiscard]] bool has_springs() const;
   /// Largest absolute change of the total energy so far [J].
   [[nodiscard]] double largest_drift() const;
+  /// Largest absolute change of the potential energy since the start so far [J].
+  [[nodiscard]] double largest_potential() const;
   /// Largest kinetic energy so far [J].
   [[nodiscard]] double largest_kinetic() const;
   [[nodiscard]] double start_time() const { return start_time_; }
@@ -116,15 +120,16 @@ class History {
   [[nodiscard]] double frame() const { return frame_; }
 
  private:
+  /// Largest absolute value so far.
+  [[nodiscard]] double largest_size(Channel channel) const;
+
   std::array<Samples, static_cast<std::size_t>(Channel::kCount)> channels_;
   double frame_ = 1.0 / 60.0;
   double start_time_ = 0.0;
   double first_time_ = 0.0;
   double energy_at_start_ = 0.0;
   double potential_at_start_ = 0.0;
-  double exchanged_ = 0.0;           // energy that the motion is known to exchange [J]
-  double lowest_ = 0.0;              // potential before a failure, minus that at the start [J]
-  std::optional<double> failed_at_;  // [s]
+  double exchanged_ = 0.0;  // energy that the motion is known to exchange [J]
 };
 
 }  // namespace substep

@@ -10,6 +10,7 @@ constexpr const char* kIntroductionKey = "introduction";  // key of Host::rememb
 constexpr const char* kLeftOnce = "seen";
 
 // The box has passed the lowest point, where N is largest; the failure is shown in slow motion.
+constexpr double kStill = 1.0;  // of a still picture: the chain has come apart [s]
 constexpr RunLoop::Plan kLoop{.end = 4.0, .slow_until = 0.5};
 
 }  // namespace
@@ -28,6 +29,15 @@ void Introduction::start(Lab& lab) {
   loop_.begin(lab, kLoop);
   lab.session.play();
   open_ = true;
+  begun_ = false;
+}
+
+void Introduction::follow(Lab& lab, bool moves) {
+  if (open_ && !std::exchange(begun_, true) && !moves) {
+    lab.session.pause();
+    while (lab.session.state().time < kStill) lab.session.step();
+  }
+  loop_.follow(lab, moves);
 }
 
 const Verdict* Introduction::torn(const Lab& lab) {

@@ -15,8 +15,9 @@ class Introduction {
   /// Shows it. Leaving it restarts the current run.
   void start(Lab& lab);
   /// Call before each drawn frame: slow motion while the chain tears, restart at the end.
-  /// @param repeats false: stops at the end
-  void follow(Lab& lab, bool repeats) { loop_.follow(lab, repeats); }
+  /// @param moves false (reduced motion): a still picture after the failure, until it is played,
+  /// and then once
+  void follow(Lab& lab, bool moves);
   /// Closes it and restarts the earlier run.
   void leave(Lab& lab);
   /// Closes it when another run has already begun.
@@ -27,6 +28,7 @@ class Introduction {
 
  private:
   bool open_ = false;
+  bool begun_ = false;  // a frame was shown
   RunStart before_;
   RunLoop loop_;
 };

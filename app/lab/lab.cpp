@@ -114,7 +114,7 @@ void Lab::start_opened() {
              std::move(opened->before)};
     if (held()) {
       session.pause();
-    } else if (opened->plays) {
+    } else if (opened->plays && !seeking()) {
       session.play();
     }
   }
@@ -324,6 +324,25 @@ double Lab::heaviest_mass() const {
     if (!body.is_static) most = std::max(most, body.mass);
   }
   return most;
+}
+
+void Lab::seek(double time) {
+  seek_to_ = time;
+  seek_run_ = run_count;
+  session.pause();
+  if (time < session.state().time) session.go_to(session.timeline().at_time(time));
+}
+
+void Lab::continue_seek(double seconds) {
+  if (!seeking() || held()) return;
+  const auto until = end_of_slice(seconds);
+  const double before = seek_to_ - 0.5 * session.scene().frame;
+  while (session.state().time < before && session.verdict().holds() && !session.stopped()) {
+    session.step();
+    if (FrameSlices::Clock::now() >= until) return;
+  }
+  seek_to_ = 0.0;
+  session.pause();
 }
 
 std::string Lab::link() const {

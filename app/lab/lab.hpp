@@ -68,9 +68,16 @@ struct Lab {
   void run(const RunStart& start);
   /// Whether the run waits for confirmation.
   [[nodiscard]] bool held() const { return !heavy.why.empty() && heavy.run == run_count; }
+  /// Computes the run up to a time, and pauses there. @param time [s]
+  void seek(double time);
+  /// Whether it is on its way there.
+  [[nodiscard]] bool seeking() const { return seek_to_ > 0.0 && seek_run_ == run_count; }
+  /// Continues. @param seconds budget in this frame
+  void continue_seek(double seconds);
   /// Whether anything runs without input: playback, a sweep, a search.
   [[nodiscard]] bool busy() const {
-    return session.playing() || accuracy.busy() || compare.behind(session) || trying_remedies();
+    return session.playing() || seeking() || accuracy.busy() || compare.behind(session) ||
+           trying_remedies();
   }
 
   /// Largest mass of a moving body in the scene as loaded [kg]; the load multiplies it.
@@ -137,6 +144,8 @@ struct Lab {
   [[nodiscard]] std::string events_in_link() const;
 
   FailedFrame failed_frame_;  // of frozen()
+  double seek_to_ = 0.0;      // [s]
+  int seek_run_ = 0;          // the run_count that it belongs to
   std::optional<RemedyTrials> trials_;
   int trials_run_ = 0;  // the run_count that they belong to
 };

@@ -19,7 +19,7 @@ constexpr std::array<Group, 8> kGroups{{{kOwnGroup, "Your own"},
                                         {"stress", "Stress"},
                                         {"energy", "Energy of adaptive steps"},
                                         {"exact", "Exact solutions"},
-                                        {"exam", "The exam: known solutions"},
+                                        {"exam", "Benchmarks with known solutions"},
                                         {"playground", "Playground"}}};
 // First in their groups; the others are sorted by title.
 constexpr std::array<std::string_view, 3> kFirst{"swinging_box", "bridge", "heavy_stack"};

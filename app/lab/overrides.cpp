@@ -117,7 +117,7 @@ std::string overrides_title(const Overrides& overrides, const Settings& session)
     } else if (o.key == "integrator") {
       title += title_of<Integrator>(o.value);
     } else {
-      title += o.key == "mode" ? o.value : o.key + " " + o.value;
+      title += o.key == "mode" ? o.value : (o.key == "alpha" ? "α" : o.key) + " " + o.value;
     }
   }
   return title;

@@ -1,6 +1,7 @@
 #include "app/lab/session.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/lab/library.hpp"
@@ -75,13 +76,14 @@ void Session::restart() {
   report_ = simulator_->observe();
   forces_ = {};
   verdict_ = std::make_unique<Verdict>(*scene_, state(), report_);
+  account_.start(report_);
   history_.start(report_, scene_->frame, scene_->criteria.energy_scale.value_or(0.0));
   timeline_.start(moment());
   editions_.clear();
   trail_.clear();
   extend_trail();
   times_ = {};
-  pace_ = 1.0;
+  asked_ = achieved_ = 0.0;
   show_present();
 }
 
@@ -94,7 +96,7 @@ void Session::use_scene(std::shared_ptr<const Scene> scene) {
 }
 
 Moment Session::moment() const {
-  return {scene_, settings(), state(), report_, *verdict_, forces_};
+  return {scene_, settings(), state(), report_, *verdict_, forces_, account_};
 }
 
 // No interpolation between two frames remains.
@@ -134,6 +136,7 @@ void Session::continue_in(Scene scene, std::function<State(State)> carry) {
   State carried = carry(state());
   use_scene(std::make_shared<const Scene>(std::move(scene)));
   simulator_->set_state(std::move(carried));
+  account_.edited(simulator_->observe());
   verdict_->disturb(state().time);
   // To keep links short, the run begins without the last forces.
   Scene edition = as_scene();
@@ -143,7 +146,12 @@ void Session::continue_in(Scene scene, std::function<State(State)> carry) {
   if (scene_edited) scene_edited({from, scene_, state().frame, std::move(carry)});
 }
 
-Scene Session::as_scene() const { return edition_of(*scene_, state(), settings()); }
+Scene Session::as_scene() const {
+  Scene out = edition_of(*scene_, state(), settings());
+  // The recommendation was found for the scene as loaded.
+  if (scene_ != loaded_) out.recommended.reset();
+  return out;
+}
 
 const Session::Edition* Session::edition() const {
   for (const Edition& edition : editions_) {
@@ -195,7 +203,8 @@ bool Session::end_frame() {
   if (stopped()) {
     hold();
   } else {
-    history_.add(report_, verdict_->holds());
+    account_.add(report_, hand_in_frame_);
+    history_.add(report_, account_.put_in());
     extend_trail();
     smooth_times();
     timeline_.add(moment());
@@ -266,12 +275,21 @@ int Session::advance(double wall_dt, double budget) {
   while (playing_ && (slices_.open() || one_frame_ || accumulator_ >= scene_->frame)) {
     if (!run_slice(until) || FrameSlices::Clock::now() >= until) break;
   }
-  const double asked = std::max(gap * speed_, 1e-9);
   const double dropped = std::max(0.0, accumulator_ - scene_->frame);
   accumulator_ -= dropped;
-  pace_ += 0.05 * (std::max(0.0, 1.0 - dropped / asked) - pace_);
+  note_pace(wall_dt, gap * speed_ - dropped);
   update_poses();
   return static_cast<int>(report_.frame - before);
+}
+
+// Sums of the last seconds: the ratio is exact from the first call on, however rare calls are.
+void Session::note_pace(double wall_dt, double achieved) {
+  constexpr double kMemory = 2.0;     // [s]
+  constexpr double kSuspended = 1.0;  // a longer gap is a suspended tab [s]
+  const double wall = std::clamp(wall_dt, 0.0, kSuspended);
+  const double kept = std::exp(-wall / kMemory);
+  asked_ = kept * asked_ + wall * speed_;
+  achieved_ = kept * achieved_ + achieved;
 }
 
 double Session::between() const {

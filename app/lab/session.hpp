@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/lab/ball.hpp"
+#include "app/lab/energy_account.hpp"
 #include "app/lab/frame_slices.hpp"
 #include "app/lab/history.hpp"
 #include "app/lab/run_events.hpp"
@@ -58,7 +59,9 @@ class Session {
   /// One sub-step.
   void substep();
   /// Remaining sub-steps of the frame begun by substep(); 0 between frames.
-  [[nodiscard]] int substeps_left() const { return simulator_->substeps_left(); }
+  [[nodiscard]] int substeps_left() const {
+    return slices_.open() ? 0 : simulator_->substeps_left();
+  }
 
   /// The past: every frame, within the memory limit. Continuing from one of them reproduces the run
   /// bit for bit and discards later frames.
@@ -108,8 +111,8 @@ class Session {
 
   [[nodiscard]] double speed() const { return speed_; }
   void set_speed(double speed) { speed_ = speed; }
-  /// Simulated time per wall time achieved recently, 1 at full speed [-].
-  [[nodiscard]] double pace() const { return pace_; }
+  /// Simulated time per wall time in the last seconds, 1 at full speed [-].
+  [[nodiscard]] double pace() const { return asked_ > 0.0 ? achieved_ / asked_ : 1.0; }
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
@@ -127,6 +130,8 @@ class Session {
     return timeline_.index() > 0 || !verdict_->holds() || verdict_->disturbed();
   }
   [[nodiscard]] const History& history() const { return history_; }
+  /// Work of the user in this run: throws, pulls, edits.
+  [[nodiscard]] const EnergyAccount& account() const { return account_; }
   /// Joint and contact forces of the last sub-step.
   [[nodiscard]] const ConstraintForces& forces() const { return forces_; }
   [[nodiscard]] std::uint64_t hash() const { return state_hash(state()); }
@@ -172,6 +177,7 @@ class Session {
   void update_poses();
   void extend_trail();
   void smooth_times();
+  void note_pace(double wall_dt, double achieved);
 
   std::shared_ptr<const Scene> loaded_;
   std::shared_ptr<const Scene> scene_;  // the loaded one with edits
@@ -181,11 +187,13 @@ class Session {
   FrameReport report_;
   ConstraintForces forces_;
   History history_;
+  EnergyAccount account_;
   Timeline timeline_;
   FrameSlices slices_;
-  State substeps_from_;       // start of the frame taken in single sub-steps
-  bool one_frame_ = false;    // only one frame is to be taken
-  std::optional<Grab> hand_;  // takes effect with the next frame
+  State substeps_from_;         // start of the frame taken in single sub-steps
+  bool one_frame_ = false;      // only one frame is to be taken
+  std::optional<Grab> hand_;    // takes effect with the next frame
+  bool hand_in_frame_ = false;  // a hand pulled in a sub-step of the frame in progress
   EventLog log_;
   Poses previous_;
   Poses poses_;
@@ -193,7 +201,8 @@ class Session {
   StageTimes times_;
   double accumulator_ = 0.0;  // wall time not yet simulated, times speed [s]
   double speed_ = 1.0;
-  double pace_ = 1.0;
+  double asked_ = 0.0;     // simulated time that the wall time of the last seconds asked for [s]
+  double achieved_ = 0.0;  // of it, what was simulated [s]
   bool playing_ = false;
   bool resumes_ = false;  // was playing before hold()
   bool just_failed_ = false;

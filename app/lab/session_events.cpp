@@ -89,6 +89,7 @@ void Session::begin_frame() {
     log_.note(state().frame, hand_ ? std::optional(Pull{hand_->body, hand_->anchor, hand_->target})
                                    : std::nullopt);
   }
+  hand_in_frame_ = hand_.has_value() || (hand_in_frame_ && substeps_left() > 0);
   simulator_->set_grab(hand_);
 }
 

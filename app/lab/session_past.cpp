@@ -15,6 +15,7 @@ void Session::go_to(std::size_t index) {
   simulator_->set_state(m.state);
   report_ = m.report;
   forces_ = m.forces;
+  account_ = m.account;
   *verdict_ = m.verdict;
   log_.go_to(m.state.frame);
   if (log_.following()) hold_body(log_.hand());

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/lab/energy_account.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/model/scene.hpp"
 #include "core/sim/constraint_forces.hpp"
@@ -19,6 +20,7 @@ struct Moment {
   FrameReport report;
   Verdict verdict;
   ConstraintForces forces;
+  EnergyAccount account;
 };
 
 /// The moments of a run, oldest first, and the index of the current one. When the memory limit is

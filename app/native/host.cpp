@@ -77,7 +77,7 @@ NativeHost::NativeHost(App& app) : app_(app) {
     save(name, bytes);
   };
   app.host.record = [this](bool on) { record(on); };
-  app.host.copy_link = [this] { copy_link(); };
+  app.host.copy_link = [this](const std::string& more) { copy_link(more); };
   app.host.open_link = [this] { open_link(); };
   app.host.open_file = [this] {
     const std::string last = recall(kFolder);
@@ -95,9 +95,9 @@ void NativeHost::save(const std::string& name, const std::string& bytes) {
 
 // The URL of the page, if the build defines it by CMake's SUBSTEP_PAGE_URL. Without it the link is
 // only the fragment, to be appended to the address of any copy of the page.
-void NativeHost::copy_link() {
+void NativeHost::copy_link(const std::string& more) {
   const std::string page = SUBSTEP_PAGE_URL;
-  ImGui::SetClipboardText((page + "#" + app_.link()).c_str());
+  ImGui::SetClipboardText((page + "#" + app_.link() + more).c_str());
   std::string said = "Link copied";
   if (is_own(app_.link_scene())) {
     said += ": it only names this scene, so send its file as well";

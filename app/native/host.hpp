@@ -20,7 +20,7 @@ class NativeHost {
  private:
   void save(const std::string& name, const std::string& bytes);
   void record(bool on);
-  void copy_link();
+  void copy_link(const std::string& more);
   void open_link();
 
   App& app_;

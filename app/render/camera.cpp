@@ -1,13 +1,19 @@
 #include "app/render/camera.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {
 
-constexpr double kNear = 0.02;  // relative to the distance
-constexpr double kFar = 60.0;   // relative to the distance
+constexpr double kNear = 0.02;     // relative to the distance
+constexpr double kFar = 60.0;      // relative to the distance
+constexpr double kLowest = -0.05;  // pitch by hand [rad]
+constexpr double kHighest = 1.5;
+constexpr double kUpright = 1.5708;
 
 }  // namespace
 
@@ -39,6 +45,7 @@ void OrbitCamera::place(const Camera& camera, double half_width) {
   goal_.yaw = std::atan2(back.x(), back.z());
   aspect_ = half_width / (distance * std::tan(0.5 * kFieldOfView));
   now_ = goal_;
+  carried_.setZero();
   by_hand_ = false;
   ++placed_;
 }
@@ -49,8 +56,37 @@ void OrbitCamera::frame(const Bounds& bounds) {
 }
 
 void OrbitCamera::turn_to(const Bounds& bounds) {
-  goal_.target = bounds.centre;
+  goal_.target = bounds.centre - carried_;
   goal_.distance = 1.1 * bounds.radius / std::sin(0.5 * kFieldOfView);
+}
+
+std::string OrbitCamera::text() const {
+  std::string list;
+  for (const double value : {goal_.yaw, goal_.pitch, goal_.distance, goal_.target.x(),
+                             goal_.target.y(), goal_.target.z()}) {
+    if (!list.empty()) list += ',';
+    list += number_text(std::round(1e4 * value) / 1e4);
+  }
+  return list;
+}
+
+bool OrbitCamera::set(std::string_view text) {
+  constexpr double kFarthest = 1e5;  // [m]
+  std::array<double, 6> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t end = text.find(',');
+    if ((end == std::string_view::npos) != (i + 1 == values.size())) return false;
+    const auto value = parse_number(text.substr(0, end));
+    if (!value || !(std::abs(*value) <= kFarthest)) return false;
+    values.at(i) = *value;
+    text.remove_prefix(
+        std::min(text.size(), end == std::string_view::npos ? text.size() : end + 1));
+  }
+  if (!(std::abs(values[1]) <= kUpright) || !(values[2] > 0.0)) return false;
+  goal_ = {{values[3], values[4], values[5]}, values[0], values[1], std::max(values[2], 1e-3)};
+  now_ = goal_;
+  by_hand_ = true;
+  return true;
 }
 
 bool OrbitCamera::at_rest() const {
@@ -63,7 +99,7 @@ bool OrbitCamera::at_rest() const {
 void OrbitCamera::orbit(double yaw, double pitch) {
   by_hand_ = by_hand_ || yaw != 0.0 || pitch != 0.0;
   goal_.yaw += yaw;
-  goal_.pitch = std::clamp(goal_.pitch + pitch, -0.05, 1.5);
+  goal_.pitch = std::clamp(goal_.pitch + pitch, kLowest, kHighest);
 }
 
 void OrbitCamera::pan(double right, double up, const ViewRect& view) {
@@ -90,7 +126,7 @@ void OrbitCamera::update(double dt, bool jump) {
 }
 
 Vec3 OrbitCamera::eye(const ViewRect& view) const {
-  return now_.target + now_.distance * fit(view) * backward(now_);
+  return target() + now_.distance * fit(view) * backward(now_);
 }
 
 Eigen::Matrix4d OrbitCamera::view_projection(const ViewRect& view, double window_width,

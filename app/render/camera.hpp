@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <string_view>
 
 #include "core/math/types.hpp"
 #include "core/model/scene.hpp"
@@ -40,8 +42,15 @@ class OrbitCamera {
   void orbit(double yaw, double pitch);                     ///< [rad]
   void pan(double right, double up, const ViewRect& view);  ///< by logical pixels
   void zoom(double factor);                                 ///< > 1 goes closer
+  /// Shifts the whole view, with everything that was set. @param offset from it [m]
+  void carry(const Vec3& offset) { carried_ = offset; }
   /// @param dt wall time [s]; @param jump arrives at once (reduced motion)
   void update(double dt, bool jump);
+
+  /// Where it is heading: yaw, pitch, distance and target, "0.5,0.2,20,0,3,0".
+  [[nodiscard]] std::string text() const;
+  /// Jumps to such a place. @return false if the text is not one
+  bool set(std::string_view text);
 
   [[nodiscard]] bool at_rest() const;
   /// Whether a person has moved it since place(): orbited, panned or zoomed.
@@ -51,7 +60,7 @@ class OrbitCamera {
   [[nodiscard]] Vec3 eye(const ViewRect& view) const;
   /// Apparent size in a view, up to a common factor; used to compare views.
   [[nodiscard]] double magnification(const ViewRect& view) const;
-  [[nodiscard]] Vec3 target() const { return now_.target; }
+  [[nodiscard]] Vec3 target() const { return now_.target + carried_; }
   /// World to clip space of the window, with the target at the centre of the view rectangle.
   [[nodiscard]] Eigen::Matrix4d view_projection(const ViewRect& view, double window_width,
                                                 double window_height) const;
@@ -68,7 +77,8 @@ class OrbitCamera {
   [[nodiscard]] double fit(const ViewRect& view) const;
   Pose now_;
   Pose goal_;
-  double aspect_ = 1.0;  // width over height of the required region
+  Vec3 carried_ = Vec3::Zero();  // of both targets [m]
+  double aspect_ = 1.0;          // width over height of the required region
   bool by_hand_ = false;
   int placed_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "app/lab/stiffness.hpp"
 #include "app/render/contact_shadows.hpp"
@@ -72,6 +73,16 @@ void add_body(std::vector<Instance>& boxes, std::vector<Instance>& balls, const 
   }
 }
 
+// Whether a point of the body frame is so far outside the shape that nothing would seem to hold it.
+bool is_off_surface(const Shape& shape, const Vec3& point) {
+  constexpr double kFar = 1.05;  // of the extent
+  const auto solid = outline(shape);
+  if (!solid) return false;
+  if (solid->is_ball()) return point.norm() > kFar * solid->rounding;
+  const Vec3 half = kFar * solid->half_extents;
+  return (point.array().abs() > half.array()).any();
+}
+
 // The support of a body at a point off its surface. @param half its half thickness [m]
 void add_rod(std::vector<Instance>& out, const Vec3& from, const Vec3& to, double half,
              const Color& color) {
@@ -120,6 +131,20 @@ double width_to_show(const Scene& scene, const Poses& poses) {
   return 1.02 * reach;
 }
 
+// What a camera follows: the tracked body, or the centre of mass of the moving ones.
+std::optional<Vec3> subject_of(const Scene& scene, const Poses& poses) {
+  if (scene.criteria.track) return poses.x[index(*scene.criteria.track)];
+  Vec3 sum = Vec3::Zero();
+  double mass = 0.0;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].is_static) continue;
+    sum += scene.bodies[i].mass * poses.x[i];
+    mass += scene.bodies[i].mass;
+  }
+  if (!(mass > 0.0)) return std::nullopt;
+  return Vec3(sum / mass);
+}
+
 /// The range of a hinge: an arc between two stops, and a pointer at its angle. @param at the hinge
 /// @param r the size of its marker [m]
 void add_range(std::vector<Instance>& boxes, const AngleLimit& limit, const Vec3& axis_b,
@@ -142,16 +167,48 @@ void SceneView::follow(const Session& session) {
     generation_ = session.generation();
     place(session.scene(), session.poses());
   }
+  follow_motion(session);
 }
 
 void SceneView::place(const Scene& scene, const Poses& poses) {
-  camera.place(scene.camera, width_to_show(scene, poses));
+  half_width_ = width_to_show(scene, poses);
+  camera.place(scene.camera, half_width_);
+  start_ = subject_of(scene, poses).value_or(scene.camera.target) - scene.camera.target;
+  carried_.setZero();
   home_ = ball_around(scene, poses, nullptr);
   lowest_ = home_.centre.y() - home_.radius;
 }
 
+// In a region around the target of the scene's camera, which includes the start, the motion does
+// not move the picture; beyond it the camera moves along. After a failure bodies fly apart: the
+// camera stays.
+void SceneView::follow_motion(const Session& session) {
+  if (!session.verdict().holds()) return;
+  const Scene& scene = session.loaded();
+  const std::optional<Vec3> subject = subject_of(scene, session.poses());
+  if (!subject || !((*subject - home_.centre).norm() < kAway)) return;
+  const Vec3 back = (scene.camera.eye - scene.camera.target).normalized();
+  const Vec3 right = OrbitCamera::right_of(scene.camera);
+  const Vec3 up = back.cross(right);
+  const double high =
+      (scene.camera.eye - scene.camera.target).norm() * std::tan(0.5 * OrbitCamera::kFieldOfView);
+  constexpr double kRoom = 0.85;  // of the way to the edge
+  constexpr double kMost = 0.9;
+  const Vec3 away = *subject - scene.camera.target;
+  const auto beyond = [&](const Vec3& axis, double half) {
+    const double along = axis.dot(away);
+    const double room = std::clamp(std::abs(axis.dot(start_)), kRoom * half, kMost * half);
+    return (along - std::clamp(along, -room, room)) * axis;
+  };
+  carried_ = beyond(right, std::max(high, half_width_)) + beyond(up, high) +
+             beyond(back, std::max(high, half_width_));
+  camera.carry(carried_);
+}
+
 Bounds SceneView::bounds(const Scene& scene, const Poses& poses) const {
-  return ball_around(scene, poses, &home_);
+  Bounds limit = home_;
+  limit.centre += carried_;
+  return ball_around(scene, poses, &limit);
 }
 
 Bounds SceneView::bounds_around(const Vec3& centre, double radius) const {
@@ -251,9 +308,9 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
       thin = std::min(thin, half_width(scene.bodies[static_cast<std::size_t>(j.b)].shape));
     }
     const Vec3 x = poses.x[a] + poses.q[a] * j.anchor_a;
-    if (j.anchor_a.norm() > 1.05 * radius_around(scene.bodies[a].shape)) {
-      thin = 0.15 * bracket;
-      add_rod(out.boxes, poses.x[a], x, thin, palette.joint);
+    if (is_off_surface(scene.bodies[a].shape, j.anchor_a)) {
+      thin = std::max(0.15 * bracket, 0.02 * j.anchor_a.norm());
+      add_rod(out.boxes, poses.x[a], x, thin, mix(palette.joint, palette.body, 0.6));
     }
     const auto b = static_cast<std::size_t>(j.b);
     const Vec3 from = j.b == kWorld ? j.anchor_b : poses.x[b] + poses.q[b] * j.anchor_b;
@@ -316,8 +373,8 @@ void SceneView::place_ground(const Scene& scene, Picture& out) const {
     out.ground.solid = true;
     break;
   }
-  // That of the scene at its start: it must not move with the bodies.
-  out.ground.centre = home_.centre.cast<float>();
+  // That of the scene at its start, or of the camera that follows: it must not move with bodies.
+  out.ground.centre = (home_.centre + carried_).cast<float>();
   out.ground.fade = static_cast<float>(std::clamp(5.0 * home_.radius, 12.0, 400.0));
   out.ground.cell = home_.radius > 40.0 ? 10.0F : 1.0F;
   out.ground.reach = static_cast<float>(std::clamp(0.2 * home_.radius, 0.15, 4.0));

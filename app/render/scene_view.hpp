@@ -62,7 +62,7 @@ class SceneView {
  public:
   OrbitCamera camera;
 
-  /// Resets the camera for a new scene.
+  /// Resets the camera for a new scene, and follows a motion that leaves its picture.
   void follow(const Session& session);
   /// Places the camera for a scene. @param poses its start
   void place(const Scene& scene, const Poses& poses);
@@ -76,6 +76,7 @@ class SceneView {
   static void add_ghost(const Scene& scene, const Poses& poses, const Color& color, Picture& out);
 
  private:
+  void follow_motion(const Session& session);
   static void add_bodies(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
                          Picture& out);
   void add_joints(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
@@ -85,8 +86,11 @@ class SceneView {
   void place_ground(const Scene& scene, Picture& out) const;
   [[nodiscard]] Bounds bounds(const Scene& scene, const Poses& poses) const;
 
-  Bounds home_;          // of the scene at its start
-  double lowest_ = 0.0;  // of the bodies at the start [m]
+  Bounds home_;                  // of the scene at its start
+  double half_width_ = 0.0;      // that the camera of the scene shows at its target [m]
+  Vec3 start_ = Vec3::Zero();    // of what the camera follows, from the target of the camera [m]
+  Vec3 carried_ = Vec3::Zero();  // how far the camera follows the motion [m]
+  double lowest_ = 0.0;          // of the bodies at the start [m]
   int generation_ = -1;
 };
 

@@ -104,6 +104,11 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
     if (key == "scale") desk.scale = *number;
     return "";
   }
+  if (key == "camera") {
+    app.view.follow(app.session);  // else the camera of a new scene replaces it in the next frame
+    const bool read = app.view.camera.set(value);
+    return read ? "" : must_be("yaw,pitch,distance,x,y,z", value);
+  }
   if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
   if (key == "panels") return choose(value, {"off", "on"}, desk.panels);
   for (const ViewSwitch& option : kViewSwitches) {
@@ -196,6 +201,12 @@ std::string App::set(std::string_view key, std::string_view value) {
     if (needs_lab(*this)) desk.level = DeskLevel::kLab;
     return problem;
   }
+  if (key == "at") {
+    const auto number = parse_number(value);
+    if (!number || !kDurationRange.contains(*number)) return must_be(kDurationRange.text(), value);
+    seek(*number);
+    return "";
+  }
   if (key == "accuracy") {
     desk.level = DeskLevel::kLab;
     return set_accuracy(*this, value);
@@ -212,8 +223,10 @@ std::string App::set(std::string_view key, std::string_view value) {
     std::string problem;
     const std::vector<Overrides> runs =
         value == "off" ? std::vector<Overrides>{} : parse_overrides(value, problem);
+    const bool begun = session.timeline().size() > 1;
     reset();
     compare.start(session, runs);
+    if (begun && compare.open()) tell("All runs of the comparison begin at the start");
     return problem;
   }
   if (key == "preset") {
@@ -265,6 +278,9 @@ void App::open_link_paused(std::string_view fragment, std::optional<SceneResult>
   // Events last: they apply to the run that the other keys define.
   std::stable_partition(parts.begin(), parts.end(),
                         [](const auto& p) { return p.key != "events"; });
+  // Then what the run, once it is complete, shows.
+  std::stable_partition(parts.begin(), parts.end(),
+                        [](const auto& p) { return p.key != "at" && p.key != "camera"; });
   // The level last: other keys may switch to the Lab, but an explicit level overrides that.
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key != "level"; });
   const auto gives = [&](std::string_view key) {

@@ -23,7 +23,9 @@ constexpr std::array<Column, static_cast<std::size_t>(Channel::kCount)> kColumns
      {Channel::kLimit, "substeps_least", nullptr},
      {Channel::kKinetic, "kinetic", nullptr},
      {Channel::kPotential, "potential", nullptr},
+     {Channel::kElastic, "springs", nullptr},
      {Channel::kTotal, "energy", nullptr},
+     {Channel::kPutIn, "energy_put_in", nullptr},
      {Channel::kDrift, "energy_drift", nullptr},
      {Channel::kJointError, "constraint_error", &Effects::joints},
      {Channel::kJointGap, "joint_gap", &Effects::joints},
@@ -69,6 +71,10 @@ std::string history_csv(const Scene& scene, std::span<const ExportedRun> runs,
     const bool wanted =
         std::find(channels.begin(), channels.end(), column.channel) != channels.end();
     if (column.channel == Channel::kPotential && !has_applied_forces(scene.effects)) continue;
+    const auto springs = [](const ExportedRun& run) { return run.history->has_springs(); };
+    if (column.channel == Channel::kElastic && std::none_of(runs.begin(), runs.end(), springs)) {
+      continue;
+    }
     if (wanted && (!column.effect || scene.effects.*column.effect)) columns.push_back(column);
   }
   const bool named = runs.size() > 1;

@@ -67,6 +67,9 @@ std::string with_digits(double value, int digits) {
   return exponent >= 3 ? grouped(value) : fixed(value, std::max(0, digits - 1 - exponent));
 }
 
+// A smaller one is 0 in per cent with three digits.
+constexpr double kLeastShare = 5e-6;
+
 }  // namespace
 
 std::string short_number(double value) { return with_digits(value, 3); }
@@ -102,12 +105,14 @@ std::string energy_change(double joules) {
 
 std::string energy_change(double joules, std::optional<double> scale) {
   const auto share = energy_share(joules, scale);
-  return energy_change(joules) + (share ? " (" + percent(*share) + ")" : "");
+  if (!share) return energy_change(joules);
+  const bool small = *share != 0.0 && std::abs(*share) < kLeastShare;
+  return energy_change(joules) + " (" + (small ? "< 0.001 %" : percent(*share)) + ")";
 }
 
 std::string percent(double share) {
   const double value = 100.0 * share;
-  if (std::abs(value) < 5e-4) return "0 %";
+  if (std::abs(share) < kLeastShare) return "0 %";
   const int digits = std::abs(value) < 0.095 ? 3 : std::abs(value) < 9.95 ? 2 : 1;
   const std::string text = fixed(value, digits);
   return (value > 0.0 ? "+" : "") + text + " %";

@@ -20,7 +20,7 @@ IntroductionWords introduction_words(const Lab& lab) {
   words.held.title = "Adaptive: N sub-steps";
   const int n = lab.session.report().n_substeps;
   if (n > 0) words.held.title += ", now " + std::to_string(n);
-  words.held.note = "Stable: the forces in the chain set N, frame by frame";
+  words.held.note = "It holds: the forces in the chain set N, frame by frame";
   words.clock = fixed(lab.session.state().time, 2) + " s";
   if (lab.session.speed() < 1.0) words.clock += ", slow motion";
   return words;

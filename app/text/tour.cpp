@@ -71,9 +71,9 @@ std::span<const TourStep> tour_steps() {
        {.title = "A load that changes while it runs",
         .text =
             "Balls of 10, 100 and 1,000 kg roll over a bridge of light planks, and N follows each "
-            "of them. The orange ghost takes {n} in every frame. Thirteen is the smallest constant "
-            "number whose largest joint gap is as small, to 5 %. It is known only after the run, "
-            "and takes more sub-steps in all.",
+            "of them. The orange ghost takes {n} in every frame. No constant number "
+            "below thirteen has a largest joint gap at most 5 % larger. That number is known only "
+            "after the run, and takes more sub-steps in all.",
         .watch = "Watch [the plot of N](substeps) under each ball, and [the joint error](error).",
         .task = "Make the ghost's bridge fail: set seven sub-steps.",
         .link = "scene=convoy&mode=adaptive&policy=substep&alpha=0.25&solver=bpp&integrator=euler"
@@ -82,9 +82,10 @@ std::span<const TourStep> tour_steps() {
         .reply = reply_changing_load},
        {.title = "What does accuracy cost?",
         .text =
-            "Sometimes nothing. Leapfrog applies gravity from the middle of one sub-step to the "
-            "middle of the next. At alpha = 0.1 its energy error is below a millionth, with as "
-            "many sub-steps as the orange ghost, which is Euler. This run has alpha = {alpha}.",
+            "Sometimes nothing. Adaptive steps buy safety; the order of a method buys accuracy. "
+            "Leapfrog applies gravity from the middle of one sub-step to the middle of the next. "
+            "At alpha = 0.1 its energy error is below a millionth, with as many sub-steps as the "
+            "orange ghost, which is Euler. This run has alpha = {alpha}.",
         .watch = "Watch [the energy drift](drift). [Error against cost](accuracy) shows all "
                  "methods.",
         .task = "Save half the sub-steps: raise alpha to 0.4.",

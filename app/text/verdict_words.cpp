@@ -11,7 +11,7 @@ namespace substep {
 std::string verdict_words(const std::string& text) {
   using Words = std::pair<std::string_view, std::string_view>;
   constexpr std::array<Words, 3> kWords{
-      {{"holds", "Stable"}, {"fails at", "Failed at"}, {"disturbed", "Disturbed"}}};
+      {{"holds", "Holds"}, {"fails at", "Failed at"}, {"disturbed", "Disturbed"}}};
   for (const auto& [judged, said] : kWords) {
     if (text.starts_with(judged)) return std::string(said) + text.substr(judged.size());
   }
@@ -67,7 +67,7 @@ std::string exceeded_sentence(const Exceeded& e) {
 
 std::string verdict_note(const Verdict& verdict, bool judged) {
   if (!judged) return "Ready";
-  return verdict.holds() ? "Stable" : "Failed at " + fixed(verdict.failed_at(), 2) + " s";
+  return verdict.holds() ? "Holds" : "Failed at " + fixed(verdict.failed_at(), 2) + " s";
 }
 
 }  // namespace substep

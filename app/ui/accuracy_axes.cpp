@@ -61,6 +61,9 @@ void draw_errors(const Look& look, const AccuracyAxes& axes, ImU32 line, ImDrawL
 
 void draw_costs(const Look& look, const AccuracyAxes& axes, ImU32 line, ImDrawList& draw) {
   float taken = axes.min.x - 20.0F;  // right end of the previous label
+  // Powers of ten, if there are two of them; else round values between. One notation on an axis.
+  const bool decades = std::floor(axes.cost.high) - std::ceil(axes.cost.low) >= 1.0;
+  const bool powers = decades && axes.cost.high >= 5.0;
   for (int e = static_cast<int>(std::floor(axes.cost.low)); e <= static_cast<int>(axes.cost.high);
        ++e) {
     for (const double m : {1.0, 2.0, 5.0}) {
@@ -68,7 +71,8 @@ void draw_costs(const Look& look, const AccuracyAxes& axes, ImU32 line, ImDrawLi
       const float x = std::round(axes.x(value));
       if (x < axes.min.x || x > axes.max.x) continue;
       draw.AddLine({x, axes.min.y}, {x, axes.max.y}, line);
-      const std::string text = plain_number(value);
+      if (decades && m != 1.0) continue;
+      const std::string text = powers ? power_of_ten(e) : plain_number(value);
       const float width = text_size(look.fonts.small, text).x;
       if (x - 0.5F * width < taken + 6.0F || x + 0.5F * width > axes.max.x + 8.0F) continue;
       draw_text(look.fonts.small, {x - 0.5F * width, axes.max.y + 4.0F}, look.theme->dim, text);

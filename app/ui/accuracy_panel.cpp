@@ -12,7 +12,6 @@
 #include "app/ui/accuracy_curves.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/panels.hpp"
-#include "app/ui/vector_figure.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -134,13 +133,6 @@ void other_scene(const Look& look, Lab& lab) {
   space(8.0F);
 }
 
-/// The area of items from one cursor position to another, with a margin.
-WindowPart around(ImVec2 from, ImVec2 to, float width) {
-  constexpr float kMargin = 8.0F;
-  return part_of_window(
-      {from.x - kMargin, from.y - kMargin, width + 2.0F * kMargin, to.y - from.y + kMargin});
-}
-
 /// Options of the picture: curves, size, saving it, and computing it here.
 void picture_buttons(const Look& look, Lab& lab, Desk& desk) {
   Accuracy& accuracy = lab.accuracy;
@@ -159,10 +151,14 @@ void picture_buttons(const Look& look, Lab& lab, Desk& desk) {
   }
   if (lab.host.save_file) {
     if (shows_errors(accuracy) || wide) ImGui::SameLine(0.0F, 6.0F);
-    if (button(look, "figure", Icon::kSave, "SVG", ButtonKind::kGhost, 0.0F, look.m.row,
-               "Save the picture as a vector graphic with its settings inside")) {
-      desk.figure = {lab.accuracy.scene()->name + "-accuracy.svg", desk.accuracy_area};
-    }
+    menu_button(look, "figure", "SVG", 72.0F, look.m.row,
+                "Save the picture for a paper, as a vector graphic with its settings inside", [&] {
+                  for (const double width : kFigureWidths) {
+                    if (!menu_item(look, fixed(width, 0) + " mm wide", "SVG")) continue;
+                    desk.figure = {lab.accuracy.scene()->name + "-accuracy.svg", width,
+                                   [&](const Look& paper) { accuracy_figure(paper, lab); }};
+                  }
+                });
   }
   label(look.fonts.small, look.theme->dim, state_text(accuracy));
   if (!accuracy.running()) sweep_button(look, lab, 0.0F);
@@ -238,6 +234,11 @@ void picture_legend(const Look& look, const Accuracy& accuracy) {
 
 }  // namespace
 
+void accuracy_figure(const Look& look, Lab& lab) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  picture(look, lab, {width, std::clamp(0.8F * width, 240.0F, 420.0F)});
+}
+
 void accuracy(const Look& look, Lab& lab, Desk& desk) {
   Accuracy& accuracy = lab.accuracy;
   accuracy.show_shipped(lab.plain_scene);
@@ -262,7 +263,6 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   }
   other_scene(look, lab);
   sweep_progress(look, accuracy);
-  const ImVec2 from = ImGui::GetCursorScreenPos();
   if (accuracy.picture == AccuracyPicture::kFairTrade) trade_head(look, lab.accuracy);
   if (shows_errors(accuracy)) {
     label(look.fonts.regular, look.theme->text, conclusion(accuracy, accuracy.points()));
@@ -272,7 +272,6 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   const float width = ImGui::GetContentRegionAvail().x;
   if (!desk.accuracy_large) {
     picture(look, lab, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
-    desk.accuracy_area = around(from, ImGui::GetCursorScreenPos(), width);
   }
   picture_buttons(look, lab, desk);
   if (shows_map(accuracy)) map_note(look, accuracy);
@@ -304,10 +303,8 @@ void accuracy_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewp
   ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption + down});
   ImGui::SetNextWindowSize(size);
   if (ImGui::Begin("##accuracy", nullptr, kPlaced | ImGuiWindowFlags_NoScrollbar)) {
-    const ImVec2 from = ImGui::GetCursorScreenPos();
     const ImVec2 inside = ImGui::GetContentRegionAvail();
     picture(look, lab, {inside.x, inside.y - 22.0F});
-    desk.accuracy_area = around(from, ImGui::GetCursorScreenPos(), inside.x);
   }
   ImGui::End();
 }

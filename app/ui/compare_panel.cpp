@@ -42,8 +42,10 @@ constexpr std::array<Addition, 8> kAdditions{{{"without sub-steps", "mode", "non
                                               {"BPP", "solver", "bpp"},
                                               {"leapfrog", "integrator", "leapfrog"}}};
 
-std::string mean_time(const Cost& cost) {
-  return cost.frames == 0 ? "" : duration(cost.seconds / static_cast<double>(cost.frames));
+std::string cost_text(const Cost& cost) {
+  if (cost.frames == 0) return "no frame yet";
+  return grouped(static_cast<double>(cost.substeps)) + " sub-steps  ·  " +
+         duration(cost.seconds / static_cast<double>(cost.frames)) + " per frame";
 }
 
 struct Line {
@@ -70,15 +72,13 @@ void draw_line(const Look& look, const Line& line) {
   }
   draw_text(look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
             fitted(look.fonts.medium, line.name, x - at.x - 44.0F));
-  const std::string cost = grouped(static_cast<double>(line.cost->substeps)) + " sub-steps  ·  " +
-                           mean_time(*line.cost) + " per frame";
-  draw_text(look.fonts.small, {at.x + 18.0F, at.y + 18.0F}, t.dim, cost);
+  draw_text(look.fonts.small, {at.x + 18.0F, at.y + 18.0F}, t.dim, cost_text(*line.cost));
   ImGui::Dummy({1.0F, 36.0F});
 }
 
 std::string divergence_text(const Session& session, const Compare::Run& run) {
   const std::string threshold = fixed(100.0 * Compare::kThreshold, 0) + " cm";
-  if (!run.divergence) return "No body is farther than " + threshold + " from this run's yet.";
+  if (!run.divergence) return "Still within " + threshold + " of this run.";
   const std::string& body =
       session.scene().bodies[static_cast<std::size_t>(run.divergence->body)].name;
   return "Diverges from this run at " + fixed(run.divergence->time, 2) + " s: " + body +

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,16 +36,21 @@ struct Capture {
   ViewRect area;
 };
 
-/// A part of a window's contents, which may be scrolled out of view.
+/// A part of the contents of a window of Dear ImGui.
 struct WindowPart : ViewRect {
   unsigned window = 0;  // Dear ImGui's id
 };
 
-/// A figure to be saved as SVG after this frame.
+/// A figure for a paper, to be saved as SVG after this frame: drawn by itself on white, without
+/// controls.
 struct Figure {
-  std::string name;  // file name
-  WindowPart part;
+  std::string name;           // file name
+  double millimetres = 84.0;  // width: of one column, or of the text of a page
+  /// Draws it at the cursor over the width of the window.
+  std::function<void(const ui::Look& look)> draw;
 };
+/// The widths offered for figures [mm].
+inline constexpr std::array<double, 2> kFigureWidths{84.0, 174.0};
 
 /// N as it was last shown, with its unit: the picture and the panels show the same.
 struct ShownN {
@@ -89,8 +95,7 @@ struct Desk {
   std::string unfolded_scene;  // scene whose variants are unfolded in the list
   ui::Thumbnails thumbnails;   // in that list
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
-  WindowPart plots_area;        // last position of the plots
-  WindowPart accuracy_area;     // and of the accuracy picture with its conclusion
+  ViewRect plots_area;          // last position of the plots
   bool accuracy_large = false;  // the accuracy picture is shown over the view
   bool split = false;           // compared runs are drawn side by side, not as ghosts
   int compare_open = -1;        // index of the compared run whose settings are shown

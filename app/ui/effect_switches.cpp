@@ -91,7 +91,7 @@ void effect_table(const Look& look, Lab& lab) {
   const Session& session = lab.session;
   const CostBreakdown* costs = lab.costs();
   const float width = ImGui::GetContentRegionAvail().x;
-  columns(look, ImGui::GetCursorScreenPos(), width, t.dim, "rows", costs ? "adds" : "builds in");
+  columns(look, ImGui::GetCursorScreenPos(), width, t.dim, "rows", costs ? "adds" : "time");
   label(look.fonts.small, t.dim, "Effects");
 
   const float text = text_size(look.fonts.small, "0").y;

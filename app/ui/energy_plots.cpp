@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,11 +38,56 @@ double largest_of_stable(const PlotContext& in, double (History::*largest)() con
   return stable > 0.0 ? stable : any;
 }
 
+/// For values up to a size; before the first sample without a prefix.
+Unit unit_of(double most, double least) {
+  return unit_for(most > 0.0 ? std::max(most, least) : 1.0);
+}
+
 /// "0.85", "12.3", ">999": a value in the unit of the heading.
 std::string in_unit(double value, const Unit& unit, double most, int digits) {
   const double v = value / unit.factor;
   if (std::abs(v) > most) return (v > 0.0 ? ">" : "<−") + fixed(most, 0);
   return fixed(v, std::abs(v) < 9.95 ? digits : std::abs(v) < 99.5 ? digits - 1 : 0);
+}
+
+/// Where the potential energy is zero.
+std::string zero_text(double at_start) {
+  if (at_start == 0.0) return "The potential energy is zero at the start. ";
+  const Unit unit = unit_for(at_start);
+  return "The potential energy is " + short_number(at_start / unit.factor) + " " + unit.prefix +
+         "J at the start, the energy that the scene's file gives for this motion. ";
+}
+
+/// Moments at which the user began to put energy into the run, and how much.
+std::vector<Mark> marks_of_work(const History& history, const TimeAxis& axis, ImU32 color) {
+  std::vector<Mark> marks;
+  const auto work = history[Channel::kPutIn];
+  const auto [t0, t1] = axis.window(history.end_time());
+  const History::Slice slice = history.between(t0, t1);
+  std::size_t began = 0;  // of the change in progress, if any
+  bool changing = false;
+  for (std::size_t i = slice.first; i < slice.last; ++i) {
+    const float before = i == 0 ? 0.0F : work[i - 1];
+    if (work[i] != before && !changing) began = i;
+    changing = work[i] != before;
+    if (!changing) continue;
+    const double change = static_cast<double>(work[i] - (began == 0 ? 0.0F : work[began - 1]));
+    if (began != i) marks.pop_back();
+    if (!marks.empty()) marks.back().name.clear();  // room for one name
+    marks.push_back({history.time(began), energy_change(change), color});
+  }
+  return marks;
+}
+
+/// "−29.8 J (−0.058 %), you +10.7 kJ", as much of it as there is room for.
+std::string drift_text(const Look& look, const std::string& heading, double drift,
+                       std::optional<double> scale, double put_in) {
+  const std::string whole = energy_change(drift, scale);
+  if (put_in == 0.0) return whole;
+  const std::string work = ", you " + energy_change(put_in);
+  const float room = ImGui::GetContentRegionAvail().x - heading_width(look, heading) - 8.0F;
+  const bool fits = text_size(look.fonts.small, whole + work).x <= room;
+  return (fits ? whole : energy_change(drift)) + work;
 }
 
 void compared_energies(const PlotContext& in, ImVec2 at, const std::string& heading,
@@ -54,11 +100,17 @@ void compared_energies(const PlotContext& in, ImVec2 at, const std::string& head
 }  // namespace
 
 std::vector<Series> energy_series(const Theme& theme, const History& history, bool gravity) {
-  const double zero = history.potential_offset();
+  const double zero = gravity ? history.potential_offset() : 0.0;
+  const bool springs = history.has_springs();
   std::vector<Series> series{{&history, Channel::kKinetic, theme.teal, "kinetic", false, true}};
-  if (!gravity) return series;  // the total is identical
-  series.push_back(
-      {&history, Channel::kPotential, theme.purple, "potential", false, false, 1.0F, zero});
+  if (!gravity && !springs) return series;  // the total is identical
+  if (gravity) {
+    series.push_back(
+        {&history, Channel::kPotential, theme.purple, "potential", false, false, 1.0F, zero});
+  }
+  if (springs) {
+    series.push_back({&history, Channel::kElastic, theme.amber, "elastic", false, false, 1.0F});
+  }
   series.push_back({&history, Channel::kTotal, theme.orange, "total", false, false, 1.5F, zero});
   return series;
 }
@@ -67,14 +119,18 @@ void energy_plot(const PlotContext& in) {
   const Look& look = in.look;
   const Theme& t = *look.theme;
   const History& h = in.session.history();
-  const bool gravity = has_applied_forces(in.session.scene().effects);
+  // A potential that was switched off stays in the sum.
+  const bool gravity = has_applied_forces(in.session.scene().effects) ||
+                       has_applied_forces(in.session.loaded().effects);
   const bool several = in.compare.open();
-  const double zero = h.potential_offset();
+  const double zero = gravity ? h.potential_offset() : 0.0;
+  const bool springs = h.has_springs();
   double most = largest_of_stable(in, &History::largest_kinetic);
   if (!several && gravity) {  // parting overlaps and gains raise the total
-    most = std::max({most, zero, largest_of_stable(in, &History::largest_drift)});
+    most = std::max({most, zero, largest_of_stable(in, &History::largest_potential),
+                     largest_of_stable(in, &History::largest_drift)});
   }
-  const Unit unit = unit_for(std::max(most, kLeastEnergy));
+  const Unit unit = unit_of(most, kLeastEnergy);
   const std::string heading = (several ? "Kinetic, " : "Energy, ") + unit.prefix + "J";
 
   const ImVec2 origin = ImGui::GetCursorScreenPos();
@@ -89,24 +145,26 @@ void energy_plot(const PlotContext& in) {
     spec.most = kRoomForFailed * most;
     add_runs(in, spec, Channel::kKinetic);
   } else {
+    const std::string elastic = springs ? " + elastic" : "";
     tooltip(
         look, "Energy",
         gravity
-            ? "Kinetic + potential = total, on one scale. The potential energy of gravity is zero "
-              "near its lowest value; the zero stays when the run fails. Where energy is conserved "
-              "the total is a flat line; the plot of the drift shows changes too small to see here."
-            : "Kinetic energy. There is no gravity, so it is also the total.");
-    std::vector<HeadingValue> values;
+            ? "Kinetic + potential" + elastic + " = total, on one scale. " + zero_text(zero) +
+                  "Where energy is conserved the total is a flat line; the plot of the drift shows "
+                  "changes too small to see here. A throw, a pull or a change of the scene moves "
+                  "the total by the work done."
+        : springs ? std::string("Kinetic + elastic = total, on one scale. There is no gravity.")
+                  : std::string("Kinetic energy. There is no gravity, so it is also the total."));
+    std::vector<HeadingValue> values;  // from the right
     const auto add = [&](const std::string& name, Channel channel, ImU32 color, double offset) {
       const double joules = shown_value(h, channel, in.desk.time) + offset;
       const bool known = std::isfinite(joules);
       const std::string number = known ? in_unit(joules, unit, 9999.0, 2) : name;
       values.push_back({color, known ? name + " " + number : name, number});
     };
-    if (gravity) {
-      add("total", Channel::kTotal, t.orange, zero);
-      add("pot.", Channel::kPotential, t.purple, zero);
-    }
+    if (gravity || springs) add("total", Channel::kTotal, t.orange, zero);
+    if (springs) add("el.", Channel::kElastic, t.amber, 0.0);
+    if (gravity) add("pot.", Channel::kPotential, t.purple, zero);
     add("kin.", Channel::kKinetic, t.teal, 0.0);
     heading_values(look, origin, heading, values);
     spec.series = energy_series(t, h, gravity);
@@ -120,18 +178,25 @@ void drift_plot(const PlotContext& in) {
   const History& h = in.session.history();
   const bool several = in.compare.open();
   const double most = largest_of_stable(in, &History::largest_drift);
-  const Unit unit = unit_for(std::max(most, kLeastDrift));
+  const Unit unit = unit_of(most, kLeastDrift);
   const std::string heading = (several ? "Drift, " : "Energy drift, ") + unit.prefix + "J";
   const auto scale = energy_scale(in.session.scene().criteria.energy_scale, h.largest_kinetic(),
                                   h.largest_drift());
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const double now = shown_value(h, Channel::kDrift, in.desk.time);
   const bool named = !several && std::isfinite(now);
-  section(look, heading, named ? energy_change(now, scale) : "");
+  const double put_in = shown_value(h, Channel::kPutIn, in.desk.time);
+  const bool by_user = named && put_in != 0.0;
+  section(look, heading, named ? drift_text(look, heading, now, scale, put_in) : "");
   tooltip(look, "Energy drift",
-          "The change of the total energy since the start, on its own scale; ideally zero. "
-          "Friction, impacts and damping remove energy. The percentage is of the energy "
-          "that the motion exchanges; a scene at rest exchanges none, and has no percentage.");
+          "The change of the total energy since the start that is not the user's work, on its own "
+          "scale; ideally zero. Friction, impacts and damping remove energy; motors and constant "
+          "torques add it. The percentage is of the energy that the motion exchanges; a scene at "
+          "rest exchanges none, and has no percentage." +
+              (by_user ? " Your work so far: " + energy_change(put_in) +
+                             ", by balls, pulls and changes of the scene. While a body is held, "
+                             "every change counts as yours."
+                       : std::string()));
   PlotSpec spec{.id = "drift",
                 .linear = true,  // a loss is negative
                 .least_span = std::max(0.1 * unit.factor, kLeastDrift),
@@ -142,6 +207,7 @@ void drift_plot(const PlotContext& in) {
     add_runs(in, spec, Channel::kDrift);
   } else {
     spec.series.push_back({&h, Channel::kDrift, t.orange, "drift"});
+    spec.marks = marks_of_work(h, in.desk.time, t.amber);
   }
   draw_plot(in, Plot::kDrift, std::move(spec));
 }

@@ -76,4 +76,26 @@ void failure_rings(const Look& look, const Lab& lab, const Viewport& viewport) {
   }
 }
 
+void first_tear(const Look& look, const Lab& lab, const Viewport& viewport) {
+  constexpr std::size_t kTorn = 1;  // pane of the compared run
+  if (!lab.compare.open() || viewport.panes.size() <= kTorn) return;
+  const Compare::Run& run = lab.compare.runs().front();
+  if (run.verdict->holds() || !run.verdict->exceeded()) return;
+  // The report names the widest joint now, the verdict the first one.
+  FrameReport then = run.report;
+  const auto& joints = run.scene->joints;
+  const auto first = std::find_if(joints.begin(), joints.end(), [&](const Joint& joint) {
+    return base(joint).name == run.verdict->exceeded()->name;
+  });
+  if (first == joints.end()) return;
+  then.torn_joint = static_cast<int>(first - joints.begin());
+  const auto failure = failure_of(*run.scene, run.poses, then, *run.verdict);
+  if (!failure) return;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const ViewRect& r = viewport.panes[kTorn];
+  draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
+  ring(look, draw, viewport, *failure, kTorn, look.theme->orange);
+  draw.PopClipRect();
+}
+
 }  // namespace substep::ui

@@ -21,19 +21,20 @@ struct Gesture {
   std::string_view what;
 };
 // Handled by Dear ImGui and the pointer; the table of keys is in keys.cpp.
-constexpr std::array<Gesture, 13> kGestures{{{"click a body", "show its values"},
-                                             {"drag a body", "pull it, while it plays"},
-                                             {"drag beside", "turn the view"},
-                                             {"right drag, Shift drag", "move the view"},
-                                             {"wheel, pinch", "closer, farther"},
-                                             {"wheel on a plot", "more or less time"},
-                                             {"drag, click on a plot", "that range, that moment"},
-                                             {"Ctrl click on a slider", "type the value"},
-                                             {"drop a file", "run your own scene"},
-                                             {"Home, End", "first and last saved frame"},
-                                             {"F6, Shift F6", "next panel, the one before"},
-                                             {"Tab, arrows", "controls of a panel"},
-                                             {"Esc", "close a card"}}};
+constexpr std::array<Gesture, 13> kGestures{
+    {{"click a body", "show its values"},
+     {"drag a body", "pull it, while it plays"},
+     {"drag beside", "turn the view"},
+     {"right drag, Shift drag", "move the view"},
+     {"wheel, pinch", "closer, farther"},
+     {"wheel on a plot", "more or less time"},
+     {"drag, click on a plot", "that range, that moment"},
+     {"Ctrl click on a slider", "type the value, as on its number"},
+     {"drop a file", "run your own scene"},
+     {"Home, End", "first and last saved frame"},
+     {"F6, Shift F6", "next panel, the one before"},
+     {"Tab, arrows", "controls of a panel"},
+     {"Esc", "close a card"}}};
 
 // Lines of one column. @return its height
 template <class Lines>
@@ -62,10 +63,17 @@ void about(const Look& look, Lab& lab, Desk& desk) {
     lab.tell("BibTeX copied");
   }
   ImGui::SameLine(0.0F, 8.0F);
-  if (button(look, "introduction", Icon::kNone, "Introduction", ButtonKind::kPlain, 0.0F,
-             look.m.row, "Shows the first screen; afterwards this run restarts")) {
+  if (button(look, "introduction", Icon::kNone, "First screen", ButtonKind::kPlain, 0.0F,
+             look.m.row, "Two chains side by side; afterwards this run restarts")) {
     desk.help = false;
     desk.follow = "introduction=on";
+  }
+  if (lab.host.open_article) {
+    ImGui::SameLine(0.0F, 8.0F);
+    if (button(look, "article", Icon::kNone, "Article", ButtonKind::kPlain, 0.0F, look.m.row,
+               "An article with two laboratories in it, as an example for your own")) {
+      lab.host.open_article();
+    }
   }
   space(8.0F);
 }

@@ -165,6 +165,23 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
     case Icon::kShare:
       draw_share(pen);
       break;
+    case Icon::kHold:  // a line that ends at a bar
+      pen.line({-0.38F, 0.0F}, {0.2F, 0.0F});
+      pen.line({0.28F, -0.34F}, {0.28F, 0.34F});
+      break;
+    case Icon::kFollow:  // a line with an arrow head
+      pen.line({-0.38F, 0.0F}, {0.3F, 0.0F});
+      pen.lines({{0.12F, -0.22F}, {0.34F, 0.0F}, {0.12F, 0.22F}});
+      break;
+    case Icon::kSweep:  // the past, behind a bar, is dotted
+      pen.line({0.0F, -0.34F}, {0.0F, 0.34F});
+      pen.line({0.12F, 0.0F}, {0.4F, 0.0F});
+      for (const float x : {-0.36F, -0.16F}) pen.disc({x, 0.0F}, 0.06F, 8);
+      break;
+    case Icon::kUndo:
+      pen.lines({{-0.14F, -0.36F}, {-0.38F, -0.12F}, {-0.14F, 0.12F}});
+      pen.lines({{-0.36F, -0.12F}, {0.34F, -0.12F}, {0.34F, 0.34F}, {-0.1F, 0.34F}});
+      break;
     case Icon::kNone:
       break;
   }

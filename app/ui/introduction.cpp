@@ -45,7 +45,8 @@ ScreenMeasures measure_screen(const Look& look, const IntroductionWords& words, 
   m.pad = m.stacked || m.low ? 16.0F : 32.0F;
   const float width = display.x - 2.0F * m.pad;
   m.head = m.pad + 32.0F + lines_height(look.fonts.regular, kPurpose, width);
-  if (!m.low) m.head += 4.0F + lines_height(look.fonts.regular, words.claim, width);
+  ImFont* claim = m.low ? look.fonts.small : look.fonts.regular;
+  m.head += 4.0F + lines_height(claim, words.claim, width);
   m.label = m.large ? 68.0F : 48.0F;
   if (m.low) m.button = 36.0F;
   m.foot = 12.0F + m.button + 12.0F + lines_height(look.fonts.small, words.paper, width) + m.pad;
@@ -82,8 +83,8 @@ void draw_head(const Look& look, const ScreenMeasures& m, const IntroductionWord
   const bool centred = !m.stacked;
   float y = paragraph(look, look.fonts.title, {m.pad, m.pad}, width, centred, t.text, "substep");
   y = paragraph(look, look.fonts.regular, {m.pad, m.pad + 32.0F}, width, centred, t.text, kPurpose);
-  if (m.low) return;
-  paragraph(look, look.fonts.regular, {m.pad, y + 4.0F}, width, centred, t.dim, words.claim);
+  paragraph(look, m.low ? look.fonts.small : look.fonts.regular, {m.pad, y + 4.0F}, width, centred,
+            t.dim, words.claim);
 }
 
 void picture_label(const Look& look, const ScreenMeasures& m, const ViewRect& picture,
@@ -133,11 +134,12 @@ void draw_clock(const Look& look, const ScreenMeasures& m, const ViewRect& held,
   draw_over(look, draw, font, {x, torn.y + torn.height + 4.0F}, look.theme->dim, text);
 }
 
-// The two buttons. @return whether the laboratory was chosen
+// The three buttons. @return whether the laboratory was chosen
 bool draw_foot(const Look& look, const ScreenMeasures& m, const IntroductionWords& words,
-               ImVec2 display, Desk& desk) {
+               ImVec2 display, Session& session, Desk& desk) {
   constexpr float kGap = 12.0F;
-  const float width = m.stacked ? 0.5F * (display.x - 2.0F * m.pad - kGap) : 144.0F;
+  const float pause = m.button;  // a square
+  const float width = m.stacked ? 0.5F * (display.x - 2.0F * (m.pad + kGap) - pause) : 144.0F;
   const float y = display.y - m.foot + 12.0F;
   const float left = m.stacked || m.low ? m.pad : 0.5F * (display.x - kGap) - width;
   ImGui::SetCursorScreenPos({left, y});
@@ -147,8 +149,14 @@ bool draw_foot(const Look& look, const ScreenMeasures& m, const IntroductionWord
   if (button(look, "tour", Icon::kNone, "Tour", ButtonKind::kPlain, width, m.button, kTourTip)) {
     desk.follow = "tour=1";
   }
+  ImGui::SameLine(0.0F, kGap);
+  const bool playing = session.playing();
+  if (button(look, playing ? "pause" : "play", playing ? Icon::kPause : Icon::kPlay, "",
+             ButtonKind::kGhost, pause, m.button, playing ? "Pause (Space)" : "Play (Space)")) {
+    session.toggle();
+  }
   if (m.low) {
-    const float x = left + 2.0F * (width + kGap) + 4.0F;
+    const float x = left + 2.0F * (width + kGap) + pause + 16.0F;
     paragraph(look, look.fonts.small, {x, y}, display.x - m.pad - x, false, look.theme->dim,
               words.paper);
   } else {
@@ -220,7 +228,7 @@ void introduction(App& app) {
     picture_label(look, m, torn, words.torn, failed ? t.orange : t.dim);
     picture_label(look, m, held, words.held, t.teal);
     draw_clock(look, m, held, torn, display.x, words.clock);
-    leave = draw_foot(look, m, words, display, app.desk) || left_otherwise();
+    leave = draw_foot(look, m, words, display, app.session, app.desk) || left_otherwise();
   }
   ImGui::End();
   ImGui::PopStyleVar(2);

@@ -63,7 +63,8 @@ constexpr std::array<KeyAction, 19> kActions{
       [](App& app, char) {
         // The focused control handles the space bar.
         if (!ImGui::GetIO().NavVisible) app.session.toggle();
-      }},
+      },
+      true},
      {",  .", ",.", "one frame back, one forward",
       [](App& app, char typed) {
         app.session.pause();
@@ -87,7 +88,7 @@ constexpr std::array<KeyAction, 19> kActions{
       [](App& app, char) { advance_tour(app.desk); }, true},
      {"L", "lL", "copy the link",
       [](App& app, char) {
-        if (app.host.copy_link) app.host.copy_link();
+        if (app.host.copy_link) app.host.copy_link("");
       }},
      {"C", "cC", "copy the command", [](App& app, char) { copy_command(app); }},
      {"O", "oO", "open a scene file",

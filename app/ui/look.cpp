@@ -37,11 +37,11 @@ Theme make_theme(bool dark) {
   t.accent = rgb(pick(0x2f6fe4, 0x1f5fd6));
   t.accent_hover = rgb(pick(0x4a86f0, 0x2f6ce0));
   t.on_accent = rgb(0xffffff);
-  t.blue = rgb(pick(0x4d90fe, 0x1f6feb));
+  t.blue = rgb(pick(0x4d90fe, 0x1a64dc));
   t.orange = rgb(pick(0xff8a4c, 0xbc4407));
   t.teal = rgb(pick(0x46c6a0, 0x007a70));
   t.amber = rgb(pick(0xe3b341, 0x8f5f00));
-  t.purple = rgb(pick(0xd9a8f5, 0x6d2fc4));
+  t.purple = rgb(pick(0xd9a8f5, 0x6a28a8));
   t.grey = rgb(pick(0x7d8798, 0x6b7586));
   t.view.background_top = color(pick(0x2a303c, 0xf4f6f9));
   t.view.background_bottom = color(pick(0x11141a, 0xdde3eb));

@@ -28,13 +28,13 @@ constexpr std::array<Choice, 2> kPolicies{
       "N is decided once per frame, from the forces of its last sub-step: the paper's (Giles and "
       "Andrews 2024)."},
      {"sub-step",
-      "dt is decided again after every sub-step, with a decaying memory of r. This project's."}}};
+      "dt is decided again after every sub-step, with a decaying memory of r. Our addition."}}};
 constexpr std::array<Choice, 4> kDrifts{
     {{"auto", "Soft with PGS, full with the others."},
      {"full", "The whole error is corrected in one step: bias phi/dt (Baumgarte 1972)."},
      {"soft",
       "The error decays with its own time constant: bias phi dt/tau², so that a change of dt adds "
-      "no energy. This project's."},
+      "no energy. Our addition."},
      {"exact",
       "Joints hold at the end of every sub-step, by repeated solves (SHAKE, Ryckaert et al. 1977): "
       "no correction stays in the velocities. BPP with Euler or leapfrog; others are full."}}};
@@ -43,7 +43,7 @@ constexpr std::array<Choice, 2> kContactStiffnesses{
     {{"paper",
       "The contact as a ball joint with the same force: the paper's (Giles and Andrews 2024), "
       "determines N."},
-     {"exact", "The true derivative of the contact force, friction included. This project's."}}};
+     {"exact", "The true derivative of the contact force, friction included. Our addition."}}};
 constexpr std::array<Choice, 2> kFrictionCones{
     {{"box",
       "The paper's: up to μ times the normal force along each tangent, and up to 1.41 μ between "
@@ -64,8 +64,8 @@ constexpr std::array<Choice, 3> kDetections{
 constexpr std::array<Choice, 2> kGyroscopics{
     {{"explicit", "Explicit Euler, as in most engines: gains energy."},
      {"implicit",
-      "Half a step explicit, half implicit: conserves energy and angular momentum. This "
-      "project's."}}};
+      "Half a step explicit, half implicit: conserves energy and angular momentum. Our "
+      "addition."}}};
 
 std::string about(const SolverEntry& e) {
   return std::string(e.full_name) + " (" + e.reference + "): " + e.about;
@@ -204,7 +204,7 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
 // The rule for N.
 void finer_points_of_mode(const Look& look, Settings& s) {
   if (reads(s, "policy")) {
-    choose(look, "N decided", kPolicies, s.policy, "How often N is decided (Eq. 11).");
+    choose(look, "Choose N every", kPolicies, s.policy, "How often N is decided (Eq. 11).");
     if (s.policy == Policy::kSubstep) {
       slider(look, "Memory", s.memory, 0.0, 0.99, false, "%.2f",
              "Share of r (Eq. 9) that is kept from one sub-step to the next: a force that dips for "
@@ -212,10 +212,10 @@ void finer_points_of_mode(const Look& look, Settings& s) {
     }
     slider(look, "Hold N", s.hold, 1, 240, true,
            "Frames that must need fewer sub-steps before their number falls: an N that follows the "
-           "motion up and down changes its energy. This project's.");
+           "motion up and down changes its energy. Our addition.");
     checkbox(look, "Take frames again", s.redo,
-             "A frame that turns out to need more sub-steps is taken again with them. This "
-             "project's.");
+             "A frame that turns out to need more sub-steps is taken again with them. Our "
+             "addition.");
   }
   if (reads(s, "rotation_criterion")) {
     checkbox(look, "Rotation criterion", s.rotation_criterion,
@@ -225,7 +225,7 @@ void finer_points_of_mode(const Look& look, Settings& s) {
   if (reads(s, "islands")) {
     checkbox(look, "Per-island sub-steps", s.islands,
              "Groups of bodies that neither joints nor possible contacts connect within a frame "
-             "have their own number of sub-steps: groups that need few take few. This project's.");
+             "have their own number of sub-steps: groups that need few take few. Our addition.");
   }
   checkbox(look, "Sleep resting bodies", s.sleep,
            "Bodies sleep at no cost when everything connected with them has been slower than 1 "
@@ -264,7 +264,7 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
     checkbox(look, "Correct for curvature", second,
              "Second order: joints are also corrected for the error that their rotation will cause "
              "by the end of the sub-step, dt²/2 phi''. Half the error with exact joints, noise "
-             "with soft ones. This project's.");
+             "with soft ones. Our addition.");
     s.drift_order = second ? 2 : 1;
   }
   if (reads(s, "warm_start")) {

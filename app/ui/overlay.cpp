@@ -71,6 +71,15 @@ std::string unit_of_n(const FrameReport& report, int left) {
   return report.n_substeps == 1 ? "step per frame" : "sub-steps";
 }
 
+// Of the caption: on a ground, because bodies of the text's own colour pass behind it.
+void draw_in_caption(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color,
+                     const std::string& text) {
+  const ImVec2 size = text_size(font, text);
+  draw.AddRectFilled({at.x - 6.0F, at.y - 1.0F}, at + size + ImVec2(6.0F, 1.0F),
+                     to_u32(look.theme->view.background_top, 0.7F), 6.0F);
+  draw_text(draw, font, at, color, text);
+}
+
 void caption(const Look& look, const Session& session, Desk& desk, const Viewport& viewport,
              bool phone) {
   const Theme& t = *look.theme;
@@ -90,14 +99,15 @@ void caption(const Look& look, const Session& session, Desk& desk, const Viewpor
     return v.width - 2.0F * pad - std::max(width, 80.0F) - 16.0F;
   };
   const ImVec2 at(v.x + pad, v.y + pad);
-  draw_over(look, draw, look.fonts.title, at, t.text,
-            fitted(look.fonts.title, session.scene().title, room_beside(n_size.x)));
-  draw_over(look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
-            fitted(look.fonts.regular, method_line(session.settings()), room_beside(unit_width)));
+  draw_in_caption(look, draw, look.fonts.title, at, t.text,
+                  fitted(look.fonts.title, session.scene().title, room_beside(n_size.x)));
+  draw_in_caption(
+      look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
+      fitted(look.fonts.regular, method_line(session.settings()), room_beside(unit_width)));
   if (!has_n) return;
   const float right = v.x + v.width - pad;
-  draw_over(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n);
-  draw_over(look, draw, look.fonts.regular, {right - unit_width, at.y + 28.0F}, t.dim, unit);
+  draw_in_caption(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n);
+  draw_in_caption(look, draw, look.fonts.regular, {right - unit_width, at.y + 28.0F}, t.dim, unit);
 }
 
 void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport) {
@@ -157,8 +167,9 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
   constexpr float kHalf = 48.0F;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ImVec2 at(v.x + 16.0F, v.y + v.height - 28.0F);
-  constexpr const char* kText = "k/M: orange needs smaller steps";
-  const ImVec2 size = text_size(look.fonts.small, kText);
+  const double r = session.state().r;  // of the stiffest body
+  const std::string text = "k/M, 0 to " + short_number(r) + " s⁻²: orange sets N";
+  const ImVec2 size = text_size(look.fonts.small, text);
   draw.AddRectFilled({at.x - 8.0F, at.y - 8.0F},
                      {at.x + 2 * kHalf + 16.0F + size.x, at.y - 2.0F + size.y},
                      fade(look.theme->panel, 0.7F), look.m.radius);
@@ -170,7 +181,7 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
                                high, mid);
   draw.AddRect(at, {at.x + 2 * kHalf, at.y + 6.0F}, fade(look.theme->faint, 0.6F));
   draw_over(look, draw, look.fonts.small, {at.x + 2 * kHalf + 8.0F, at.y - 5.0F}, look.theme->text,
-            kText);
+            text);
 }
 
 }  // namespace substep::ui

@@ -50,6 +50,8 @@ void explore_controls(const Look& look, Lab& lab, Desk& desk, const Viewport& vi
 void method_controls(const Look& look, const Scene& scene, Settings& settings, bool& more);
 /// @param height shared by the plots; 0: their minimum
 void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float height);
+/// The shown plots alone, for a paper.
+void plots_figure(const Look& look, Lab& lab, Desk& desk);
 /// Saves the run so far as a CSV file, with the channels of the plots shown.
 void save_table(const Lab& lab, Desk& desk);
 /// Summary of what sets N, in two lines and a picture.
@@ -69,6 +71,8 @@ void effect_table(const Look& look, Lab& lab);
 void effect_costs(const Look& look, Lab& lab);
 /// The cost of accuracy: all methods on this scene.
 void accuracy(const Look& look, Lab& lab, Desk& desk);
+/// Its picture alone, for a paper.
+void accuracy_figure(const Look& look, Lab& lab);
 /// The recommendation in the same panel: the cheapest within an error or the most accurate within a
 /// cost, with the reason, a button to run it, and a search for the paper's alpha.
 void advice(const Look& look, Lab& lab);
@@ -142,6 +146,8 @@ void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewp
 void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
 /// A ring around what failed in each run, with its measure.
 void failure_rings(const Look& look, const Lab& lab, const Viewport& viewport);
+/// On the first screen: a ring around the first joint that came apart, also as it opens further.
+void first_tear(const Look& look, const Lab& lab, const Viewport& viewport);
 void selection_card(const Look& look, const Session& session, Desk& desk, const Viewport& viewport,
                     bool phone);
 void tint_scale(const Look& look, const Session& session, const Compare& compare, const Desk& desk,

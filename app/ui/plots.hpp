@@ -27,10 +27,10 @@ void add_runs(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps
 /// Draws a plot over the width of the window, with the current time; a click seeks to its time.
 void draw_plot(const PlotContext& in, Plot which, PlotSpec spec);
 
-/// Kinetic, potential and total energy on one scale; the first two add up to the third. In a
-/// comparison, the kinetic energy of each run.
+/// Kinetic, potential, elastic and total energy on one scale; the first three add up to the last.
+/// In a comparison, the kinetic energy of each run.
 void energy_plot(const PlotContext& in);
-/// The change of the total energy since the start, on its own scale.
+/// The change of the total energy since the start without the user's work, on its own scale.
 void drift_plot(const PlotContext& in);
 
 /// N at alpha = 1, the limit of stability by the criterion, of the stiffest frame so far: 7 for the

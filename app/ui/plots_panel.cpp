@@ -13,7 +13,6 @@
 #include "app/ui/plot_headings.hpp"
 #include "app/ui/plots.hpp"
 #include "app/ui/timing.hpp"
-#include "app/ui/vector_figure.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -162,8 +161,9 @@ struct PlotInfo {
   std::span<const Channel> channels;
 };
 constexpr std::array kSubstepChannels{Channel::kSubsteps, Channel::kMean, Channel::kLimit};
-constexpr std::array kEnergyChannels{Channel::kKinetic, Channel::kPotential, Channel::kTotal};
-constexpr std::array kDriftChannels{Channel::kDrift};
+constexpr std::array kEnergyChannels{Channel::kKinetic, Channel::kPotential, Channel::kElastic,
+                                     Channel::kTotal};
+constexpr std::array kDriftChannels{Channel::kPutIn, Channel::kDrift};
 constexpr std::array kErrorChannels{Channel::kJointError, Channel::kJointGap,
                                     Channel::kPenetration};
 constexpr std::array kTimeChannels{Channel::kTime,         Channel::kTimeSolve,
@@ -210,7 +210,18 @@ void span_menu(const Look& look, Desk& desk, float width) {
               });
 }
 
-void save_menu(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewport) {
+float plot_gap(const Look& look) { return 0.75F * look.m.section; }
+
+// @param height of each, without headings and time labels
+void stack_of_plots(const Look& look, Lab& lab, Desk& desk,
+                    const std::vector<const PlotInfo*>& shown, float height) {
+  for (const PlotInfo* info : shown) {
+    if (info != shown.front()) space(plot_gap(look));
+    info->draw({look, lab.session, lab.compare, desk, height, info == shown.back()});
+  }
+}
+
+void save_menu(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   icon_menu(look, "save", Icon::kSave, ButtonKind::kPlain, look.m.row, "Save the run or a picture",
             [&] {
               const std::string name = file_stem(lab.session);
@@ -219,8 +230,12 @@ void save_menu(const Look& look, const Lab& lab, Desk& desk, const Viewport& vie
               if (menu_item(look, "Plots", "PNG")) {
                 desk.capture = {name + "-plots.png", desk.plots_area};
               }
-              if (menu_item(look, "Plots, with their settings inside", "SVG")) {
-                desk.figure = {name + "-plots.svg", desk.plots_area};
+              for (const double width : kFigureWidths) {
+                if (!menu_item(look, "Plots and settings, " + fixed(width, 0) + " mm", "SVG")) {
+                  continue;
+                }
+                desk.figure = {name + "-plots.svg", width,
+                               [&](const Look& paper) { plots_figure(paper, lab, desk); }};
               }
               if (menu_item(look, "View", "PNG")) {
                 desk.capture = {name + "-view.png", viewport.view_rect};
@@ -232,12 +247,12 @@ void save_menu(const Look& look, const Lab& lab, Desk& desk, const Viewport& vie
 }
 
 // Toolbar above the plots: which plots, and the time span.
-void toolbar(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewport) {
+void toolbar(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   TimeAxis& time = desk.time;
   const float row = look.m.row;
   const float width = ImGui::GetContentRegionAvail().x;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  if (button(look, "follow", time.follow ? Icon::kPause : Icon::kPlay, "", ButtonKind::kPlain, row,
+  if (button(look, "follow", time.follow ? Icon::kHold : Icon::kFollow, "", ButtonKind::kPlain, row,
              row,
              time.follow ? "Hold the plots; the run continues"
                          : "Follow the run again (double click on a plot)")) {
@@ -262,14 +277,20 @@ void toolbar(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewp
   ImGui::SameLine(0.0F, 8.0F);
   save_menu(look, lab, desk, viewport);
   ImGui::SameLine(0.0F, 8.0F);
-  if (button(look, "clear", Icon::kCross, "", ButtonKind::kPlain, row, row,
-             "Clear the plots up to now; a reset restores them")) {
-    time.from = lab.session.history().end_time();
+  const bool hidden = time.from > lab.session.history().start_time();
+  if (button(look, "clear", hidden ? Icon::kUndo : Icon::kSweep, "", ButtonKind::kPlain, row, row,
+             hidden ? "Show the hidden past again" : "Hide what is before now")) {
+    time.from = hidden ? 0.0 : lab.session.history().end_time();
     time.follow = true;
   }
 }
 
 }  // namespace
+
+void plots_figure(const Look& look, Lab& lab, Desk& desk) {
+  constexpr float kHeight = 88.0F;
+  stack_of_plots(look, lab, desk, shown_plots(lab.session, desk), kHeight);
+}
 
 void save_table(const Lab& lab, Desk& desk) {
   if (!lab.host.save_file) return;
@@ -293,22 +314,19 @@ void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, flo
   const float width = ImGui::GetContentRegionAvail().x;
   const std::vector<const PlotInfo*> shown = shown_plots(lab.session, desk);
   const auto count = static_cast<float>(shown.size());
-  const float gap = 0.75F * look.m.section;
   const float above = tools ? look.m.row + 8.0F : 0.0F;
-  const float rest = height - above - count * kHeading - (count - 1.0F) * gap - kTimeLabelHeight;
-  const float unit = std::floor(std::max(rest / std::max(count, 1.0F), kLeastPlot));
+  const float rest =
+      height - above - count * kHeading - (count - 1.0F) * plot_gap(look) - kTimeLabelHeight;
   // Values at the cursor belong to the picture shown, also in the past.
   desk.time.past.reset();
   if (!lab.session.timeline().at_end()) desk.time.past = lab.session.state().time;
-  for (const PlotInfo* info : shown) {
-    if (info != shown.front()) space(gap);
-    info->draw({look, lab.session, lab.compare, desk, unit, info == shown.back()});
-  }
+  stack_of_plots(look, lab, desk, shown,
+                 std::floor(std::max(rest / std::max(count, 1.0F), kLeastPlot)));
   if (shown.empty()) {
     label(look.fonts.small, look.theme->dim, "Every plot is hidden: the list above shows them.");
   }
-  desk.plots_area = part_of_window(
-      {from.x - 8.0F, from.y - 4.0F, width + 16.0F, ImGui::GetCursorScreenPos().y - from.y + 4.0F});
+  desk.plots_area = {from.x - 8.0F, from.y - 4.0F, width + 16.0F,
+                     ImGui::GetCursorScreenPos().y - from.y + 4.0F};
 }
 
 }  // namespace substep::ui

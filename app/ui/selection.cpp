@@ -29,7 +29,8 @@ void row(const Look& look, const std::string& name, const std::string& value,
 }
 
 std::string triple(const Vec3& v, int digits, const char* unit) {
-  return fixed(v.x(), digits) + "  " + fixed(v.y(), digits) + "  " + fixed(v.z(), digits) + unit;
+  return "x " + fixed(v.x(), digits) + "  y " + fixed(v.y(), digits) + "  z " +
+         fixed(v.z(), digits) + unit;
 }
 
 std::string newtons(double force) {
@@ -40,9 +41,9 @@ std::string newtons(double force) {
 void motion_rows(const Look& look, const Session& session, std::size_t i, bool phone) {
   const State& state = session.state();
   const Vec6& u = state.u[i];
-  row(look, "position", triple(state.x[i], phone ? 1 : 2, " m"), "Centre of mass: x, y, z.");
+  row(look, "position", triple(state.x[i], phone ? 1 : 2, " m"), "Centre of mass, in the world.");
   row(look, "speed", short_number(u.head<3>().norm()) + " m/s");
-  row(look, "turns", short_number(u.tail<3>().norm()) + " rad/s", "Angular speed.");
+  row(look, "angular speed", short_number(u.tail<3>().norm()) + " rad/s");
 }
 
 void stiffness_row(const Look& look, const Session& session, std::size_t i) {
@@ -50,8 +51,8 @@ void stiffness_row(const Look& look, const Session& session, std::size_t i) {
   if (state.k.size() <= i || !(state.r > 0.0)) return;
   const double r = stiffest_of(session.scene(), state, i).r;
   const int n = wanted_substeps(session.scene().frame, stable_step(session.settings().alpha, r));
-  row(look, "k/M",
-      fixed(100.0 * r / state.r, r < state.r ? 1 : 0) + " % of r  ·  N " + std::to_string(n),
+  row(look, "share of the stiffest",
+      fixed(100.0 * r / state.r, r < state.r ? 1 : 0) + " %  ·  N " + std::to_string(n),
       "Its largest ratio of the diagonals of K and M, as a share of r (Eq. 9), and the N that it "
       "alone would need (Eqs. 10, 11).");
 }

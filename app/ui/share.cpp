@@ -5,6 +5,7 @@
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/io/scene_writer.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep::ui {
 namespace {
@@ -15,9 +16,18 @@ void line() {
   ImGui::Dummy({1.0F, 2.0F});
 }
 
+// "&at=1.25&camera=...": the time, and where the camera is heading.
+std::string moment_in_link(const Session& session, const OrbitCamera& camera) {
+  return "&at=" + number_text(session.state().time) + "&camera=" + camera.text();
+}
+
 void items(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   const Host& host = lab.host;
-  if (host.copy_link && menu_item(look, "Copy link", "L")) host.copy_link();
+  if (host.copy_link && menu_item(look, "Copy link", "L")) host.copy_link("");
+  if (host.copy_link && menu_item(look, "Copy link to this moment and view")) {
+    host.copy_link(moment_in_link(lab.session, viewport.view.camera));
+  }
+  if (host.copy_embed && menu_item(look, "Copy HTML to embed it")) host.copy_embed();
   if (menu_item(look, "Copy command", "C")) copy_command(lab);
   if (host.open_link && menu_item(look, "Open the copied link")) host.open_link();
   line();

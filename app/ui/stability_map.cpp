@@ -96,7 +96,7 @@ std::string short_ratio(double ratio) {
 ImU32 cell_color(const Theme& t, const Result& result) {
   if (result.metrics.holds) return fade(t.blue, t.dark ? 0.55F : 0.3F);
   const auto survived = static_cast<float>(result.metrics.failed_at / result.experiment.duration);
-  return fade(t.orange, (t.dark ? 0.65F : 0.5F) - 0.35F * std::min(1.0F, survived));
+  return fade(t.orange, 0.5F - 0.35F * std::min(1.0F, survived));
 }
 
 void read_cell(const Look& look, const Result& result, double ratio) {
@@ -186,12 +186,19 @@ void draw_centred(const Look& look, ImVec2 from, ImVec2 size, ImU32 color,
   draw_text(look.fonts.small, from + (size - extent) * 0.5F, color, text);
 }
 
-void draw_cell(const Look& look, const Result& result, ImVec2 min, ImVec2 max) {
+void draw_ground(const Look& look, const Result& result, ImVec2 min, ImVec2 max) {
+  ImGui::GetWindowDrawList()->AddRectFilled(min, max, cell_color(*look.theme, result), 3.0F);
+}
+
+// Over a line through the cells.
+void draw_text_of_cell(const Look& look, const Result& result, ImVec2 min, ImVec2 max) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 color = look.theme->text;
-  draw.AddRectFilled(min, max, cell_color(*look.theme, result), 3.0F);
   if (result.metrics.holds) {  // a word would be wider than some cells
-    draw_icon(draw, Icon::kCheck, (min + max) * 0.5F, 14.0F, color);
+    const ImVec2 middle = (min + max) * 0.5F;
+    draw.AddCircleFilled(middle, 8.0F, look.theme->panel);
+    draw.AddCircleFilled(middle, 8.0F, cell_color(*look.theme, result));
+    draw_icon(draw, Icon::kCheck, middle, 14.0F, color);
   } else {
     draw_centred(look, min, max - min, color, fixed(result.metrics.failed_at, 2));
   }
@@ -276,7 +283,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
         continue;
       }
       const Result& result = accuracy.results()[known->second];
-      draw_cell(look, result, min, max);
+      draw_ground(look, result, min, max);
       mark(std::to_string(known->second), min, max, "map");
       const bool live = runs_now(lab, result);
       if (live) draw.AddRect({min.x - 1, min.y - 1}, {max.x + 1, max.y + 1}, t.text, 4.0F, 0, 2);
@@ -289,6 +296,15 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
     }
   }
   if (is_constant(grid)) draw_path(look, grid, path, layout);
+  for (std::size_t row = 0; row < grid.values.size(); ++row) {
+    for (std::size_t column = 0; column < grid.loads.size(); ++column) {
+      const auto known = grid.results.find({grid.values[row], grid.loads[column]});
+      if (known == grid.results.end()) continue;
+      const ImVec2 min = layout.corner(column, row);
+      draw_text_of_cell(look, accuracy.results()[known->second], min,
+                        min + layout.cell - ImVec2(kCellGap, kCellGap));
+    }
+  }
   if (!under) return by_key;
   ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   const Result& result = accuracy.results()[*under];

@@ -121,8 +121,8 @@ void invitation(const Look& look, Desk& desk, const Viewport& viewport) {
       outline(look);
       ImGui::SameLine(0.0F, 8.0F);
     }
-    if (button(look, "tour", Icon::kNone, fresh ? "Take the tour" : "Tour",
-               fresh ? ButtonKind::kPrimary : ButtonKind::kPlain, 0.0F, row, kTourTip)) {
+    if (button(look, "tour", Icon::kNone, "Tour", fresh ? ButtonKind::kPrimary : ButtonKind::kPlain,
+               0.0F, row, kTourTip)) {
       go_to(desk, 0);
     }
     if (!fresh) outline(look);

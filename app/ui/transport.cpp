@@ -184,7 +184,10 @@ void transport(App& app, bool phone) {
                    0.0F, "The simulation is slower than the selected speed");
   }
   if (app.desk.level == DeskLevel::kLab && right - after_buttons > 560.0F) {
-    right = status(look, right, bar, kHeight, "hash " + hex_text(app.session.hash()), 0.0F,
+    // While the run plays it would change with every frame; its place stays.
+    const std::string hash = "hash " + hex_text(app.session.hash());
+    right = status(look, right, bar, kHeight, app.session.playing() ? "hash when paused" : hash,
+                   text_size(look.fonts.small, hash).x,
                    "Hash of the state: the same on every machine for the same experiment");
   }
 

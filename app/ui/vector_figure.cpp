@@ -219,8 +219,31 @@ WindowPart part_of_window(const ViewRect& area) {
   return {area, ImGui::GetCurrentWindow()->RootWindow->ID};
 }
 
+WindowPart figure_window(const Look& paper, const Figure& figure) {
+  constexpr double kPixels = 96.0 / 25.4;  // per millimetre, by CSS
+  constexpr float kMargin = 4.0F;
+  const auto width = static_cast<float>(kPixels * figure.millimetres);
+  constexpr float kTall = 4000.0F;
+  // Nothing is clipped at the edge of the display.
+  ImVec2& visible = ImGui::GetMainViewport()->Size;
+  const ImVec2 display = std::exchange(visible, {kTall, kTall});
+  ImGui::SetNextWindowPos({0.0F, 0.0F});
+  ImGui::SetNextWindowSize({width, kTall});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {kMargin, kMargin});
+  ImGui::Begin("##figure", nullptr,
+               kPlaced | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+  figure.draw(paper);
+  const float height = ImGui::GetCursorScreenPos().y + kMargin;
+  const WindowPart part = part_of_window({0.0F, 0.0F, width, height});
+  ImGui::End();
+  ImGui::PopStyleVar();
+  visible = display;
+  return part;
+}
+
 std::string svg_figure(const Look& look, const ImDrawData& panels, const WindowPart& part,
-                       const FigureNote& note) {
+                       double millimetres, const FigureNote& note) {
   Writer writer(look, part);
   for (const ImDrawList* list : panels.CmdLists) {
     const ImGuiWindow* window = window_of(*list);
@@ -228,8 +251,11 @@ std::string svg_figure(const Look& look, const ImDrawData& panels, const WindowP
   }
   const std::string width = number(part.width);
   const std::string height = number(part.height);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
-         "\" viewBox=\"0 0 " + width + ' ' + height +
+  const auto on_paper = [&](float pixels) {
+    return number(pixels * static_cast<float>(millimetres) / part.width) + "mm";
+  };
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + on_paper(part.width) +
+         "\" height=\"" + on_paper(part.height) + "\" viewBox=\"0 0 " + width + ' ' + height +
          "\" font-family=\"Inter, system-ui, sans-serif\">\n<title>" + xml_text(note.title) +
          "</title>\n<desc>" + xml_text(note.command) + "</desc>\n<metadata>" +
          xml_text(note.experiment) + "</metadata>\n<rect width=\"" + width + "\" height=\"" +

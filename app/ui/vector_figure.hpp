@@ -36,12 +36,16 @@ struct FigureNote {
   std::string experiment;  // JSON
 };
 
-/// A part of the current window, for svg_figure().
+/// A part of the current window.
 WindowPart part_of_window(const ViewRect& area);
 
-/// The contents of a window within an area, whether or not they are scrolled into view.
+/// Draws a figure in a window of its own; call between ImGui::NewFrame() and Render().
+/// @return the figure in that window, for svg_figure()
+WindowPart figure_window(const Look& paper, const Figure& figure);
+
+/// The contents of a window within an area, also beyond the edge of the display.
 /// @param panels of a frame drawn within a FigureFrame  @param part in interface pixels
 std::string svg_figure(const Look& look, const ImDrawData& panels, const WindowPart& part,
-                       const FigureNote& note);
+                       double millimetres, const FigureNote& note);
 
 }  // namespace substep::ui

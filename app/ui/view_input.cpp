@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/render/picking.hpp"
+#include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 
 namespace substep::ui {
@@ -49,6 +50,27 @@ std::optional<Hit> body_at(const Lab& lab, const Viewport& viewport, ImVec2 p, s
   return std::nullopt;
 }
 
+// The moving body whose centre is closest to the pointer, if that is near: between two pictures a
+// fast body has moved on.
+std::optional<Hit> nearest_moving(const Lab& lab, const Viewport& viewport, ImVec2 p,
+                                  std::size_t pane) {
+  constexpr float kReach = 28.0F;  // [px]
+  const Scene& scene = lab.scene_in(pane);
+  const Poses& poses = lab.poses_in(pane);
+  std::optional<Hit> nearest;
+  float reach = kReach;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    ImVec2 at;
+    if (scene.bodies[i].is_static || !project(viewport, poses.x[i], at, pane)) continue;
+    const float away = std::hypot(at.x - p.x, at.y - p.y);
+    if (away >= reach) continue;
+    reach = away;
+    const Ray ray = ray_at(viewport, p, pane);
+    nearest = Hit{static_cast<int>(i), ray.direction.dot(poses.x[i] - ray.origin)};
+  }
+  return nearest;
+}
+
 bool can_be_held(const Session& session, int body) {
   const auto& bodies = session.scene().bodies;
   const auto i = static_cast<std::size_t>(body);
@@ -67,7 +89,9 @@ Vec3 in_plane_of(const Viewport& viewport, ImVec2 pointer, std::size_t pane, con
 void press(const Lab& lab, Viewport& viewport, ImVec2 pointer) {
   viewport.hand = {};
   viewport.hand.pane = pane_at(viewport, pointer);
-  const auto hit = body_at(lab, viewport, pointer, viewport.hand.pane);
+  auto hit = body_at(lab, viewport, pointer, viewport.hand.pane);
+  const bool moves = lab.session.playing();
+  if (!hit && moves) hit = nearest_moving(lab, viewport, pointer, viewport.hand.pane);
   if (!hit) return;
   const auto i = static_cast<std::size_t>(hit->body);
   const Poses& poses = lab.poses_in(viewport.hand.pane);

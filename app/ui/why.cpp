@@ -91,7 +91,9 @@ void body_columns(const Look& look, const Session& session, float height) {
   const auto i =
       static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(moving.size() - 1)));
   const Body& body = scene.bodies[moving[i]];
-  const std::string text = "k/M is " + fixed(100.0 * shares[moving[i]], 1) + " % of the largest.";
+  const std::string text = "k/M is " + fixed(100.0 * shares[moving[i]], 1) +
+                           " % of the largest. "
+                           "One column for each body, in the order of the scene.";
   tooltip(look, body.name, text);
 }
 
@@ -173,7 +175,41 @@ void bar_tooltip(const Look& look, const Session& session, const StiffnessLeader
   tooltip(look, title, text);
 }
 
-// One bar per body: the N that it alone requires.
+// Neighbours in a list whose bodies require the same N.
+struct BarGroup {
+  std::size_t first = 0;
+  std::size_t count = 1;
+  int n = 1;
+};
+
+std::vector<BarGroup> groups_of(const Session& session, const std::vector<StiffnessLeader>& list) {
+  std::vector<BarGroup> groups;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const int n = substeps_for(session, list[i].r);
+    if (!groups.empty() && groups.back().n == n) {
+      ++groups.back().count;
+    } else {
+      groups.push_back({i, 1, n});
+    }
+  }
+  return groups;
+}
+
+// "link_0", "link_0 to link_24" if they follow each other in the scene, else "12 bodies".
+std::string name_of_group(const Scene& scene, const std::vector<StiffnessLeader>& list,
+                          const BarGroup& group) {
+  if (group.count == 1) return name_of_body(scene, list[group.first]);
+  const auto begin = list.begin() + static_cast<std::ptrdiff_t>(group.first);
+  const auto end = begin + static_cast<std::ptrdiff_t>(group.count);
+  const auto [low, high] =
+      std::minmax_element(begin, end, [](const auto& a, const auto& b) { return a.body < b.body; });
+  if (high->body - low->body + 1 != static_cast<int>(group.count)) {
+    return std::to_string(group.count) + " bodies";
+  }
+  return name_of_body(scene, *low) + " to " + name_of_body(scene, *high);
+}
+
+// One bar per body, or per group that requires the same N: the N that it alone requires.
 void bars(const Look& look, const Session& session, Desk& desk, const Criterion& criterion,
           const std::vector<StiffnessLeader>& list) {
   constexpr float kRow = 20.0F;
@@ -183,15 +219,17 @@ void bars(const Look& look, const Session& session, Desk& desk, const Criterion&
   section(look, "N by stiffness of each body");
   tooltip(look, "N by stiffness of each body",
           "The N that each body alone would need, from the k/M of its stiffest degree of freedom. "
-          "The largest is the stiffness term. A click selects the body.");
+          "The largest is the stiffness term. Bodies that need the same N share a bar. A click "
+          "selects the stiffest of them.");
+  const std::vector<BarGroup> groups = groups_of(session, list);
   const float width = ImGui::GetContentRegionAvail().x;
-  const float names = std::min(112.0F, 0.4F * width);
+  const float names = std::min(124.0F, 0.44F * width);
   constexpr float kNumbers = 34.0F;
   const float most = width - names - kNumbers - 12.0F;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const std::size_t shown = list.size() <= kMostBars + 1 ? list.size() : kMostBars;
+  const std::size_t shown = groups.size() <= kMostBars + 1 ? groups.size() : kMostBars;
   for (std::size_t i = 0; i < shown; ++i) {
-    const StiffnessLeader& who = list[i];
+    const StiffnessLeader& who = list[groups[i].first];
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::InvisibleButton("bar", {width, kRow})) {
@@ -199,25 +237,26 @@ void bars(const Look& look, const Session& session, Desk& desk, const Criterion&
     }
     const bool hovered = ImGui::IsItemHovered() || desk.selected == who.body;
     draw_focus(look);
+    mark(name_of_group(scene, list, groups[i]), at, {at.x + width, at.y + kRow}, "N by stiffness");
     bar_tooltip(look, session, who);
     ImGui::PopID();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);
     const bool leads = sets && i == 0;
     const ImU32 ink = leads || hovered ? t.text : t.dim;
     draw_text(look.fonts.small, {at.x, at.y + 3.0F}, ink,
-              fitted(look.fonts.small, name_of_body(scene, who), names - 4.0F));
+              fitted(look.fonts.small, name_of_group(scene, list, groups[i]), names - 4.0F));
     const float x = at.x + names;
     const auto share = static_cast<float>(std::sqrt(who.r / list[0].r));  // N is proportional to √r
     draw.AddRectFilled({x, at.y + 5.0F}, {x + most, at.y + kRow - 5.0F}, t.well, 2.0F);
     draw.AddRectFilled({x, at.y + 5.0F}, {x + std::max(2.0F, share * most), at.y + kRow - 5.0F},
                        leads ? t.orange : t.blue, 2.0F);
-    draw_text_before(look.fonts.small, {at.x + width, at.y + 3.0F}, ink,
-                     grouped(substeps_for(session, who.r)));
+    draw_text_before(look.fonts.small, {at.x + width, at.y + 3.0F}, ink, grouped(groups[i].n));
   }
   space(8.0F);
-  if (shown < list.size()) {
-    const std::string others = "and " + std::to_string(list.size() - shown) + " others, N up to " +
-                               grouped(substeps_for(session, list[shown].r));
+  if (shown < groups.size()) {
+    const BarGroup& next = groups[shown];
+    const std::string others =
+        "and " + std::to_string(list.size() - next.first) + " others, N up to " + grouped(next.n);
     label(look.fonts.small, t.dim, others);
   }
 }
@@ -257,13 +296,16 @@ void criterion_terms(const Look& look, const Session& session, const Criterion& 
        c.set_by == CriterionTerm::kRotation);
 }
 
+// Why no stiffness is known.
+const char* why_nothing(const FrameReport& report) {
+  if (report.frame == 0) return "It is known after the first frame.";
+  if (report.stages.stiffness) return "No force in a constraint: N = 1.";
+  return "Not evaluated in this mode: switch on \"why this N\" under Show.";
+}
+
 void nothing_stiff(const Look& look, const Session& session) {
-  const bool evaluated = session.report().stages.stiffness;
   label(look.fonts.medium, look.theme->text, "No geometric stiffness yet");
-  label(look.fonts.small, look.theme->dim,
-        evaluated ? "No constraint force, no geometric stiffness: N = 1."
-                  : "K has not been evaluated: this needs a frame, and in modes that do not use it "
-                    "\"why this N\" under Show.");
+  label(look.fonts.small, look.theme->dim, why_nothing(session.report()));
 }
 
 }  // namespace
@@ -279,7 +321,7 @@ void why_summary(const Look& look, const Session& session, Desk& desk) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const std::string first = setter_text(session.scene(), criterion);
-  std::string second = "K is zero or not evaluated in this mode.";
+  std::string second = why_nothing(report);
   if (criterion.set_by == CriterionTerm::kStiffness)
     second = stiffness_and_mass(criterion.stiffness);
   if (criterion.set_by == CriterionTerm::kRotation) second = both_terms_text(criterion);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <type_traits>
 
 #include "app/ui/handles.hpp"
@@ -59,7 +60,9 @@ bool slider_row(const Look& look, const char* name, T& value, T least, T most, T
   constexpr float kValueWidth = 48.0F;
   ImGuiWindow* window = ImGui::GetCurrentWindow();
   if (window->SkipItems) return false;
-  const ImGuiID id = window->GetID(name);
+  // A text field shows its label beside it, except what follows "##".
+  const std::string hidden = std::string("###") + name;
+  const ImGuiID id = window->GetID(hidden.c_str());
   const ImVec2 origin = window->DC.CursorPos;
   const float width = ImGui::GetContentRegionAvail().x;
   const ImRect all(origin, {origin.x + width, origin.y + look.m.row});
@@ -92,11 +95,13 @@ bool slider_row(const Look& look, const char* name, T& value, T least, T most, T
   }
   ImDrawList& draw = *window->DrawList;
   if (typing) {
-    const ImRect box(value_x - 16.0F, frame.Min.y, all.Max.x, frame.Max.y);
+    // Dear ImGui opens the field only if the click is in it; then it covers the number.
+    const bool opens = !ImGui::TempInputIsActive(id);
+    const ImRect box(opens ? all.Min.x : value_x - 16.0F, frame.Min.y, all.Max.x, frame.Max.y);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                         {6.0F, 0.5F * (look.m.row - ImGui::GetFontSize())});
-    const bool typed =
-        ImGui::TempInputScalar(box, id, name, kDataType<T>, &value, format, &least, &most);
+    const bool typed = ImGui::TempInputScalar(box, id, hidden.c_str(), kDataType<T>, &value, format,
+                                              &least, &most);
     ImGui::PopStyleVar();
     return typed;
   }

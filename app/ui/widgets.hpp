@@ -109,6 +109,10 @@ enum class Icon : unsigned char {
   kSave,
   kBall,
   kShare,
+  kHold,
+  kFollow,
+  kSweep,
+  kUndo,
   kNone
 };
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);

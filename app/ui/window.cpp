@@ -278,7 +278,10 @@ void draw_window(App& app) {
 }
 
 void draw_over_picture(App& app) {
-  if (app.introduction.open()) return notice(app);
+  if (app.introduction.open()) {
+    first_tear(app.look, app, app);
+    return notice(app);
+  }
   const bool small = is_small(ImGui::GetIO().DisplaySize);
   annotations(app.look, app, app.desk, app);
   body_labels(app.look, app, app.desk, app);

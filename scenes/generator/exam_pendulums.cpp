@@ -129,7 +129,8 @@ ExamCase table_case(const std::string& name, const std::string& title,
   ExamCase exam = exam_case(
       name, title,
       "A body of 1 kg whose centre is 2 m from the joint, released at rest from the horizontal.",
-      "rows of a commercial multibody code, published as a joint benchmark; and the closed form by "
+      "a table computed with a commercial multibody code, published as a joint benchmark; and the "
+      "closed form by "
       "elliptic functions",
       5.0, 0.1);
   Scene& scene = exam.scene;
@@ -216,12 +217,13 @@ ExamCase exam_spherical() {
 
 ExamCase exam_distance() {
   const std::string why = "the table's own distance from the closed form, over all 501 rows";
-  ExamCase exam = exam_case("distance", "Distance joint, commercial code",
-                            "A body of 1 kg whose centre hangs on a rod of 2 m without mass, "
-                            "released at rest from the horizontal; it does not rotate.",
-                            "rows of a commercial multibody code, published as a joint benchmark; "
-                            "and the closed form by elliptic functions",
-                            5.0, 0.1);
+  ExamCase exam = exam_case(
+      "distance", "Distance joint, commercial code",
+      "A body of 1 kg whose centre hangs on a rod of 2 m without mass, "
+      "released at rest from the horizontal; it does not rotate.",
+      "a table computed with a commercial multibody code, published as a joint benchmark; "
+      "and the closed form by elliptic functions",
+      5.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   scene.gravity = {0.0, 0.0, -kTableGravity};

@@ -42,8 +42,8 @@ Scene heavy_stack(const HeavyStackOptions& options) {
   scene.description = layers + " layers of four balls and a plate, 1 kg each, carry a box of " +
                       tonnes + " t. Only contacts hold it.";
   scene.look_for =
-      "It stands even with one step per frame, because the direct solver is exact in double "
-      "precision. Its stress variant shows what sub-steps add.";
+      "It stands with any number of sub-steps, because the direct solver is exact in double "
+      "precision. To see what sub-steps add, open its stress variant.";
   scene.effects = {.gravity = true, .contact = true};
   scene.contact.compliance = options.compliance;
   scene.settings.alpha = options.alpha;

@@ -78,8 +78,8 @@ Scene swinging_box(const SwingingBoxOptions& options) {
   scene.group = "paper";
   scene.description = "A box of 1000 kg swings on a chain of 25 links of 1 kg each.";
   scene.look_for =
-      "Without sub-steps the chain tears at once. Mode adaptive takes most of them at the bottom "
-      "of the swing, where the tension is largest.";
+      "Without sub-steps the chain tears at once. Adaptive sub-stepping takes most sub-steps at "
+      "the bottom of the swing, where the tension is largest.";
   scene.effects = {.gravity = true, .joints = true};
   scene.criteria.energy_gain = 5150.0;
   scene.criteria.energy_scale = 51500.0;

@@ -130,8 +130,9 @@ test("pictures of window and view equal the screen", async () => {
 test("a figure is an SVG with texts, and with its settings inside", async () => {
   await call(page, "set", { scene: "swinging_box", panel: "accuracy", level: "lab" });
   await call(page, "pause");
-  await appears(page, "SVG");
-  const [download] = await Promise.all([page.waitForEvent("download"), click(page, "SVG")]);
+  await appears(page, "figure");
+  await click(page, "figure");
+  const [download] = await Promise.all([page.waitForEvent("download"), click(page, "84 mm wide")]);
   assert.equal(download.suggestedFilename(), "swinging_box-accuracy.svg");
   const svg = (await contents(download)).toString();
   const found = await page.evaluate((text) => {
@@ -143,7 +144,9 @@ test("a figure is an SVG with texts, and with its settings inside", async () => 
     };
   }, svg);
   assert.equal(found.fault, "");
-  assert.match(found.texts, /To keep the path within/);
+  assert.match(found.texts, /solver operations per frame/);
+  assert.doesNotMatch(found.texts, /Run again|SVG|Larger/, "controls");
+  assert.match(svg, /^<svg [^>]*width="84mm"/);
   assert.equal(found.about.scene, "swinging_box");
   assert.equal(found.about.settings.alpha, 0.1);
   assert.match(found.about.link, /scene=swinging_box/);

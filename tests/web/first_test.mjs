@@ -50,6 +50,7 @@ test("Try it opens the laboratory, also at later visits", async () => {
   const page = await openPage(session, { first: true });
   await introduced(page, true);
   assert.equal(await page.evaluate(() => location.hash), "", "the address is no longer plain");
+  await drawn(page); // a click before the first picture would hit nothing
   await click(page, "Try it");
   await introduced(page, false);
   const report = await call(page, "report");
@@ -111,6 +112,23 @@ test("HTML has the same text and two buttons for the keyboard", async () => {
   assert.equal(await page.evaluate(() => document.activeElement.name), "scene");
   assert.equal(await page.getByRole("button", { name: "Try it" }).count(), 0, "it is still there");
   await leave(page);
+});
+
+test("without JavaScript the page says what it is, with a picture", async () => {
+  for (const [width, height] of [[1280, 720], [390, 844]]) {
+    const context = await session.browser.newContext(
+      { javaScriptEnabled: false, viewport: { width, height } });
+    const page = await context.newPage();
+    await page.goto(session.address);
+    const card = page.locator(".substep-plain .substep-card");
+    await card.click({ trial: true }); // it is visible, and nothing covers it
+    assert.match(await card.textContent(), /stable constrained rigid bodies.*needs JavaScript/s);
+    const box = await card.locator("img").boundingBox();
+    assert.ok(box.width > 250 && box.height > 140 && box.y >= 0, JSON.stringify(box));
+    assert.equal(await page.locator("#laboratory").isVisible(), false);
+    await save(page, `no-javascript-${width}`);
+    await context.close();
+  }
 });
 
 test("a laboratory in an article starts without it", async () => {

@@ -146,6 +146,20 @@ test("touches rotate, zoom and scroll", async () => {
   await leave(phone);
 });
 
+test("a value is typed after Ctrl and a click on a slider", async () => {
+  const page = await openPage(session);
+  await call(page, "pause");
+  await drawn(page);
+  await page.keyboard.down("Control");
+  await click(page, "Alpha  α");
+  await page.keyboard.up("Control");
+  await page.keyboard.type("0.037");
+  await page.keyboard.press("Enter");
+  await reports(page, "alpha", 0.037);
+  assert.equal((await call(page, "report")).mode, "adaptive", "digits are no shortcuts");
+  await leave(page);
+});
+
 test("none tears, adaptive holds, alpha changes N, the link is copied", async () => {
   const page = await openPage(session);
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);

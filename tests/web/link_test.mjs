@@ -176,6 +176,30 @@ test("and the command are copied from the menu", async () => {
   };
   assert.equal(await copied("Copy link"), page.url());
   assert.match((await call(page, "report")).notice, /Link copied/);
+  // Of this moment, from another place than the scene's own camera.
+  await call(page, "step", 30);
+  await page.mouse.move(620, 300);
+  await page.mouse.wheel(0, -300);
+  await drawn(page);
+  const moment = await copied("Copy link to this moment and view");
+  assert.match(moment, /&at=0\.5&camera=[-0-9.,]+$/);
+  const hash = await call(page, "hash");
+  const other = await openPage(session, { fragment: fragmentOf(moment) });
+  await reports(other, "frame", 30);
+  assert.equal(await call(other, "hash"), hash);
+  await leave(other);
+  // Within another page.
+  const html = await copied("Copy HTML to embed it");
+  assert.match(html, /^<iframe src="[^"]+&amp;[^"]+" title="substep: Swinging box"/);
+  const outer = await session.browser.newContext({ serviceWorkers: "block" });
+  const article = await outer.newPage();
+  const theirs = `${session.address}theirs.html`;
+  await article.route(theirs, (route) => route.fulfill({ contentType: "text/html", body: html }));
+  await article.goto(theirs);
+  const inner = await (await article.waitForSelector("iframe")).contentFrame();
+  await inner.waitForFunction(() => window.substep?.report().mode === "const", null, { timeout: 60000 });
+  await outer.close();
+  await call(page, "reset");
   assert.equal(await copied("Copy command"), "./dev cli run swinging_box --mode const --n 9");
   assert.equal(await call(page, "command"), "./dev cli run swinging_box --mode const --n 9");
   await leave(page);

@@ -89,8 +89,8 @@ for (const [width, height, light] of displays) {
 test("the button in the canvas begins it; Next, Back and Done navigate it", async () => {
   const page = await openPage(session);
   assert.equal(await tour(page).isVisible(), false);
-  await page.waitForFunction(() => window.substep.widgets().some((w) => w.label === "Take the tour"));
-  await click(page, "Take the tour");
+  await page.waitForFunction(() => window.substep.widgets().some((w) => w.label === "Tour"));
+  await click(page, "Tour");
   await page.getByText(`Tour, 1 of ${steps}`).waitFor();
   assert.ok(await button(page, "Back").isDisabled());
   const wanted = [{ mode: "none" }, { mode: "const", n: "7" }, { mode: "capped" }, { mode: "adaptive" },

@@ -112,6 +112,27 @@ TEST(WhyPanel, ShowsBothTermsOfEveryScene) {
   }
 }
 
+// The links of the chain need the same N: one row for all of them, not 25.
+TEST(WhyPanel, BodiesThatNeedTheSameNShareABar) {
+  Headless h;
+  h.app->desk.tab = Tab::kWhy;
+  h.app->session.pause();
+  for (int i = 0; i < 60; ++i) h.app->session.step();
+  h.frames(2);
+  int bars = 0;
+  std::string names;
+  for (const ui::Handle& handle : ui::handles()) {
+    if (handle.group != "N by stiffness") continue;
+    ++bars;
+    names += handle.label + "; ";
+  }
+  EXPECT_GE(bars, 1);
+  EXPECT_LE(bars, 8) << names;
+  EXPECT_TRUE(names.find(" to link_") != std::string::npos ||
+              names.find(" bodies") != std::string::npos)
+      << names;
+}
+
 TEST(Controls, OffersTheRotationCriterionWhereNIsChosen) {
   Headless h(1280.0F, 2400.0F);
   h.app->desk.more = true;

@@ -31,34 +31,177 @@ const ui::Series* curve(const std::vector<ui::Series>& all, Channel channel) {
 }
 
 // Samples are rounded to single precision, each by half a unit in the last place.
-double rounding(double a, double b, double c) {
+double rounding(double a, double b, double c, double d = 0.0) {
   return 2.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
-         (std::abs(a) + std::abs(b) + std::abs(c));
+         (std::abs(a) + std::abs(b) + std::abs(c) + std::abs(d));
 }
 
-TEST(EnergyPlot, KineticAndPotentialMakeTheTotalInEverySampleOfEveryScene) {
+// Every sample of the curves adds up to the total.
+void expect_sums(const Headless& h, const Session& session) {
+  const History& history = session.history();
+  const bool gravity = session.loaded().effects.gravity;
+  const auto curves = ui::energy_series(*h.app->look.theme, history, gravity);
+  const ui::Series* kinetic = curve(curves, Channel::kKinetic);
+  const ui::Series* potential = curve(curves, Channel::kPotential);
+  const ui::Series* elastic = curve(curves, Channel::kElastic);
+  const ui::Series* total = curve(curves, Channel::kTotal);
+  const std::string& name = session.scene().name;
+  ASSERT_NE(kinetic, nullptr);
+  ASSERT_EQ(potential != nullptr, gravity) << name;
+  ASSERT_EQ(elastic != nullptr, history.has_springs()) << name;
+  ASSERT_EQ(total != nullptr, gravity || history.has_springs()) << name;
+  if (total == nullptr) return;
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const double k = plotted(*kinetic, i);
+    const double p = potential != nullptr ? plotted(*potential, i) : 0.0;
+    const double e = elastic != nullptr ? plotted(*elastic, i) : 0.0;
+    const double sum = plotted(*total, i);
+    ASSERT_NEAR(k + p + e, sum, rounding(k, p - total->offset, e, sum - total->offset))
+        << name << ", " << i;
+  }
+}
+
+TEST(EnergyPlot, ItsPartsMakeTheTotalInEverySampleOfEveryScene) {
   Headless h;
   for (const auto& scene : h.app->library.scenes()) {
     h.app->run(scene);
     for (int i = 0; i < kFrames; ++i) h.app->session.step();
-    const History& history = h.app->session.history();
-    ASSERT_GT(history.size(), 0U) << scene->name;
-    const auto curves = ui::energy_series(*h.app->look.theme, history, scene->effects.gravity);
-    const ui::Series* kinetic = curve(curves, Channel::kKinetic);
-    const ui::Series* potential = curve(curves, Channel::kPotential);
-    const ui::Series* total = curve(curves, Channel::kTotal);
-    ASSERT_NE(kinetic, nullptr);
-    ASSERT_EQ(potential != nullptr, scene->effects.gravity) << scene->name;
-    ASSERT_EQ(total != nullptr, scene->effects.gravity) << scene->name;
-    if (total == nullptr) continue;
-    for (std::size_t i = 0; i < history.size(); ++i) {
-      const double k = plotted(*kinetic, i);
-      const double p = plotted(*potential, i);
-      const double sum = plotted(*total, i);
-      ASSERT_NEAR(k + p, sum, rounding(k, p - potential->offset, sum)) << scene->name << ", " << i;
-      ASSERT_GE(p, 0.0) << scene->name << ": none is negative";
+    ASSERT_GT(h.app->session.history().size(), 0U) << scene->name;
+    expect_sums(h, h.app->session);
+  }
+}
+
+TEST(EnergyPlot, SpringsAreInTheSum) {
+  Headless h;
+  Scene scene = *shipped("pendulum");
+  base(scene.joints.front()).compliance = 1e-3;  // the hinge is a spring of 1 kN/m
+  h.app->run(std::make_shared<const Scene>(scene));
+  Session& session = h.app->session;
+  session.pause();
+  for (int i = 0; i < kFrames; ++i) session.step();
+  ASSERT_TRUE(session.history().has_springs());
+  expect_sums(h, session);
+  const double most = static_cast<double>(
+      session.history().samples(Channel::kElastic).extent(0, session.history().size()).high);
+  EXPECT_GT(most, 0.04) << "J: the weight of 1 kg alone stores (m g)^2 / 2 k = 0.048 J";
+}
+
+TEST(EnergyPlot, ItsZeroIsOfTheSceneAndStays) {
+  Headless h;
+  Session& session = h.app->session;
+  for (const auto& scene : h.app->library.scenes()) {
+    h.app->run(scene);
+    const double zero = session.history().potential_offset();
+    EXPECT_EQ(zero, scene->criteria.energy_scale.value_or(0.0)) << scene->name;
+    for (int i = 0; i < kFrames; ++i) {
+      session.step();
+      ASSERT_EQ(session.history().potential_offset(), zero) << scene->name;
     }
   }
+}
+
+Ball heavy_ball() { return {Vec3(0.0, 9.0, 2.0), Vec3(3.0, 1.0, -12.0), 0.3, 60.0}; }
+
+double last(const Session& session, Channel channel) {
+  return static_cast<double>(session.history()[channel].back());
+}
+
+// The energy of a ball that flies free, with the potential's zero at the origin.
+double energy_of(const Scene& scene, const Ball& ball) {
+  return 0.5 * ball.mass * ball.velocity.squaredNorm() -
+         ball.mass * scene.gravity.dot(ball.position);
+}
+
+TEST(EnergyAccount, ABallIsTheUsersWorkAndNoDrift) {
+  Headless h;
+  Session& session = h.app->session;
+  session.pause();
+  for (int i = 0; i < 30; ++i) session.step();
+  const double before = session.report().energy;
+  const double drift = last(session, Channel::kDrift);
+  EXPECT_EQ(session.account().put_in(), 0.0);
+  session.throw_ball(heavy_ball());
+  const double work = session.account().put_in();
+  EXPECT_NEAR(work, energy_of(session.scene(), heavy_ball()), 1e-12 * std::abs(before));
+  // Far from the chain, the ball changes nothing of what the method does.
+  session.step();
+  EXPECT_LT(std::abs(last(session, Channel::kDrift) - drift), 1e-3 * work);
+  EXPECT_EQ(session.account().put_in(), work);
+  expect_sums(h, session);
+  session.reset();
+  EXPECT_EQ(session.account().put_in(), 0.0);
+}
+
+TEST(EnergyAccount, APullIsBookedFrameByFrameAndReleasedWithTheHand) {
+  Headless h;
+  Session& session = h.app->session;
+  session.pause();
+  for (int i = 0; i < 10; ++i) session.step();
+  const double drift = last(session, Channel::kDrift);
+  const double start = session.report().energy - session.account().put_in();
+  const Vec3 target = session.state().x[3] + Vec3(0.0, 0.5, 0.5);
+  session.grab(3, Vec3::Zero(), target);
+  for (int i = 0; i < 20; ++i) {
+    const double before = session.report().energy;
+    const double booked = session.account().put_in();
+    session.step();
+    const double change = session.report().energy - before;
+    ASSERT_NEAR(session.account().put_in() - booked, change, 1e-12 * std::abs(before)) << i;
+  }
+  EXPECT_NEAR(session.report().energy - session.account().put_in(), start, 1e-10 * std::abs(start));
+  EXPECT_NEAR(last(session, Channel::kDrift), drift, 1e-6 * std::abs(start));
+  session.let_go();
+  const double booked = session.account().put_in();
+  for (int i = 0; i < 5; ++i) session.step();
+  EXPECT_EQ(session.account().put_in(), booked) << "the hand is gone";
+  expect_sums(h, session);
+  // Also when the hand lets go between two sub-steps of a frame.
+  ASSERT_EQ(h.app->set("mode", "const"), "");
+  ASSERT_EQ(h.app->set("n", "8"), "");
+  session.grab(3, Vec3::Zero(), target);
+  const double before = session.report().energy;
+  session.substep();
+  ASSERT_GT(session.substeps_left(), 0);
+  session.let_go();
+  while (session.substeps_left() > 0) session.substep();
+  EXPECT_NEAR(session.account().put_in() - booked, session.report().energy - before,
+              1e-12 * std::abs(before));
+}
+
+TEST(EnergyAccount, ThePastHasItsOwnAndComparedRunsToo) {
+  Headless h;
+  h.app->open_link("scene=swinging_box&mode=adaptive&compare=mode:adaptive");
+  Session& session = h.app->session;
+  session.pause();
+  for (int i = 0; i < 20; ++i) session.step();
+  session.throw_ball(heavy_ball());
+  for (int i = 0; i < 10; ++i) session.step();
+  const double work = session.account().put_in();
+  ASSERT_NE(work, 0.0);
+  h.frames(2);
+  const Compare::Run& same = h.app->compare.runs().front();
+  EXPECT_EQ(same.account.put_in(), work);
+  EXPECT_EQ(same.history[Channel::kDrift].back(), session.history()[Channel::kDrift].back());
+  session.go_to(10);
+  EXPECT_EQ(session.account().put_in(), 0.0);
+  session.go_to(25);
+  EXPECT_EQ(session.account().put_in(), work);
+  h.frames(2);
+  EXPECT_EQ(same.account.put_in(), work);
+}
+
+TEST(EnergyAccount, GravitySwitchedOffIsAnEditOfTheScene) {
+  Headless h;
+  Session& session = h.app->session;
+  session.pause();
+  for (int i = 0; i < 20; ++i) session.step();
+  const double potential = session.report().potential;
+  Effects effects = session.scene().effects;
+  effects.gravity = false;
+  session.set_effects(effects);
+  EXPECT_NEAR(session.account().put_in(), -potential, 1e-12 * std::abs(potential));
+  for (int i = 0; i < 5; ++i) session.step();
+  expect_sums(h, session);
 }
 
 TEST(EnergyPlot, TheTotalIsTheReportedEnergyUpToTheZeroOfThePotential) {
@@ -137,6 +280,7 @@ TEST(EnergyDrift, PercentagesAreOfASignificantEnergy) {
   EXPECT_FALSE(energy_scale(std::nullopt, std::numeric_limits<double>::infinity(), 0.0));
   EXPECT_FALSE(energy_scale(std::nullopt, 1.0, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(energy_change(0.0, 1.0), "0 J (0 %)");
+  EXPECT_EQ(energy_change(-22.8e-9, 0.162), "−22.8 nJ (< 0.001 %)");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ TEST(ExamGhost, ScenesHaveTheirOwnGroup) {
   EXPECT_GE(library.scenes().size(), before + 14);
   EXPECT_EQ(library.scenes().front()->name, first);
   ASSERT_NE(library.find("exam_four_bar"), nullptr);
-  EXPECT_EQ(group_title(library.find("exam_four_bar")->group), "The exam: known solutions");
+  EXPECT_EQ(group_title(library.find("exam_four_bar")->group), "Benchmarks with known solutions");
   EXPECT_FALSE(is_own(*library.find("exam_four_bar")));
 }
 

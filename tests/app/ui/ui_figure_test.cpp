@@ -27,6 +27,15 @@ SavedFigure save_figure(Headless& h, const Figure& figure) {
   return saved;
 }
 
+Figure plots_of_run(Headless& h) {
+  return {"plots.svg", 84.0,
+          [&](const ui::Look& look) { ui::plots_figure(look, *h.app, h.app->desk); }};
+}
+
+Figure accuracy_of_scene(Headless& h, const char* name) {
+  return {name, 174.0, [&](const ui::Look& look) { ui::accuracy_figure(look, *h.app); }};
+}
+
 std::string text_between(const std::string& text, const std::string& open,
                          const std::string& close) {
   const std::size_t from = text.find(open);
@@ -58,7 +67,7 @@ TEST(Figure, PlotsHaveTheirTextsCurvesAndExperiment) {
   h.frames(90);
   h.app->session.pause();
   h.frames(2);
-  const SavedFigure figure = save_figure(h, {"plots.svg", h.app->desk.plots_area});
+  const SavedFigure figure = save_figure(h, plots_of_run(h));
   EXPECT_EQ(figure.name, "plots.svg");
   EXPECT_TRUE(figure.text.starts_with("<svg "));
   EXPECT_TRUE(figure.text.ends_with("</svg>\n"));
@@ -94,37 +103,72 @@ TEST(Figure, CapturesTheChartAndDoesNotChangeTheWindow) {
   h.frames(3);
   const bool lines = ImGui::GetStyle().AntiAliasedLines;
   const std::size_t handles = ui::handles().size();
-  const SavedFigure figure = save_figure(h, {"chart.svg", h.app->desk.accuracy_area});
+  const SavedFigure figure = save_figure(h, accuracy_of_scene(h, "chart.svg"));
   EXPECT_NE(figure.text.find("operations"), std::string::npos);
   EXPECT_EQ(ImGui::GetStyle().AntiAliasedLines, lines);
   EXPECT_EQ(ui::handles().size(), handles);
   h.frames(2);
   EXPECT_EQ(ui::handles().size(), handles);
-  const SavedFigure again = save_figure(h, {"chart.svg", h.app->desk.accuracy_area});
+  const SavedFigure again = save_figure(h, accuracy_of_scene(h, "chart.svg"));
   EXPECT_EQ(again.text, figure.text);
 }
 
-TEST(Figure, IsCompleteWhereThePanelIsScrolled) {
-  Headless h;
+// Its height exceeds that of the display.
+TEST(Figure, IsCompleteBeyondTheEdgeOfTheDisplay) {
+  Headless h(844.0F, 390.0F);
   h.app->host.save_file = [](const std::string&, const std::string&) {};
   h.app->session.pause();
   h.app->desk.tab = Tab::kAccuracy;
   ASSERT_EQ(h.app->set("accuracy", "trade"), "");
   h.frames(3);
-  ImGuiWindow* panel = ImGui::FindWindowByID(h.app->desk.accuracy_area.window);
-  ASSERT_NE(panel, nullptr);
-  ASSERT_GT(panel->ScrollMax.y, 0.0F) << "all of it is visible";
-  ImGui::SetScrollY(panel, panel->ScrollMax.y);
-  h.frames(3);
-  const SavedFigure figure = save_figure(h, {"trade.svg", h.app->desk.accuracy_area});
-  for (const char* text :
-       {"Adaptive sub-stepping takes", "0.01 × load", "10 × load", "found by trial"}) {
+  const SavedFigure figure = save_figure(h, accuracy_of_scene(h, "trade.svg"));
+  for (const char* text : {"0.01 × load", "10 × load", "found by trial"}) {
     EXPECT_NE(figure.text.find(text), std::string::npos) << text;
   }
-  EXPECT_EQ(figure.text.find("Run again"), std::string::npos) << "outside its area";
-  EXPECT_EQ(figure.text.find("sub-steps</text>"), std::string::npos) << "of another window";
-  const float height = h.app->desk.accuracy_area.height;
-  EXPECT_GT(height, panel->Size.y - 100.0F);
+  const SavedFigure plots = save_figure(h, plots_of_run(h));
+  EXPECT_NE(plots.text.find("0 s</text>"), std::string::npos) << "the time below the last plot";
+  h.resize(1280.0F, 1600.0F, 1.0F);
+  h.frames(3);
+  EXPECT_EQ(occurrences(save_figure(h, plots_of_run(h)).text, "<text"),
+            occurrences(plots.text, "<text"));
+}
+
+TEST(Figure, IsForPapersOnWhiteWithoutControlsAtTheChosenWidth) {
+  for (const bool dark : {true, false}) {
+    Headless h;
+    h.app->desk.dark = dark;
+    h.app->session.pause();
+    h.app->desk.tab = Tab::kAccuracy;
+    h.app->host.save_file = [](const std::string&, const std::string&) {};
+    h.frames(3);
+    const SavedFigure wide = save_figure(h, accuracy_of_scene(h, "chart.svg"));
+    EXPECT_TRUE(wide.text.find("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"174mm\"") == 0)
+        << wide.text.substr(0, 200);
+    const SavedFigure plots = save_figure(h, plots_of_run(h));
+    EXPECT_NE(plots.text.find("width=\"84mm\""), std::string::npos);
+    for (const std::string& text : {wide.text, plots.text}) {
+      EXPECT_NE(text.find("fill=\"#ffffff\"/>\n<"), std::string::npos) << "the ground";
+      for (const char* control :
+           {">Path<", ">Sub-steps</text>", ">Operations<", ">SVG<", ">Larger<", ">Run again<"}) {
+        EXPECT_EQ(text.find(control), std::string::npos) << control;
+      }
+    }
+  }
+}
+
+TEST(Figure, IsSavedFromTheMenusInTwoWidths) {
+  Headless h;
+  h.app->session.pause();
+  h.app->desk.tab = Tab::kAccuracy;
+  std::string text;
+  h.app->host.save_file = [&](const std::string&, const std::string& bytes) { text = bytes; };
+  h.frames(3);
+  for (const char* width : {"84", "174"}) {
+    h.press("figure");
+    h.press(std::string(width) + " mm wide");
+    h.frames(2);
+    EXPECT_NE(text.find(std::string("width=\"") + width + "mm\""), std::string::npos);
+  }
 }
 
 TEST(Figure, EscapesTheTextsOfAScene) {
@@ -134,7 +178,7 @@ TEST(Figure, EscapesTheTextsOfAScene) {
   h.app->run(scene);
   h.app->session.pause();
   h.frames(2);
-  const SavedFigure figure = save_figure(h, {"plots.svg", h.app->desk.plots_area});
+  const SavedFigure figure = save_figure(h, plots_of_run(h));
   EXPECT_EQ(figure.text.find("<script"), std::string::npos);
   EXPECT_NE(figure.text.find("<title>&lt;script&gt;"), std::string::npos);
 }

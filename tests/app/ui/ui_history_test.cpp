@@ -33,30 +33,28 @@ TEST(History, KeepsOneSampleAFrameWithItsTime) {
   EXPECT_FLOAT_EQ(history[Channel::kDrift][9], 10.0F);
 }
 
-TEST(History, TheZeroOfThePotentialStaysAfterAFailure) {
-  const auto falling = [](int frame) {
-    FrameReport report = report_at(frame);
-    report.potential = 97.0 - frame;
-    return report;
-  };
+TEST(History, TheZeroOfThePotentialNeverMoves) {
+  for (const double exchanged : {0.0, 15.0}) {
+    History history;
+    history.start(report_at(0), 1.0 / 60.0, exchanged);
+    for (int i = 1; i <= 60; ++i) {
+      FrameReport report = report_at(i);
+      report.potential = 97.0 - i;  // below that of any frame before, and below what was stated
+      history.add(report);
+      ASSERT_DOUBLE_EQ(history.potential_offset(), exchanged) << i;
+    }
+    history.cut(0.1);
+    EXPECT_DOUBLE_EQ(history.potential_offset(), exchanged);
+  }
+}
+
+TEST(History, WorkOfTheUserIsNoDrift) {
   History history;
   history.start(report_at(0), 1.0 / 60.0);
-  for (int i = 1; i <= 10; ++i) history.add(falling(i), i < 10);
-  EXPECT_DOUBLE_EQ(history.potential_offset(), 10.0) << "lowest at the failure";
-  for (int i = 11; i <= 20; ++i) history.add(falling(i), false);
-  EXPECT_DOUBLE_EQ(history.potential_offset(), 10.0);
-  history.cut(5.0 / 60.0);
-  EXPECT_DOUBLE_EQ(history.potential_offset(), 5.0);
-  for (int i = 6; i <= 12; ++i) history.add(falling(i));
-  EXPECT_DOUBLE_EQ(history.potential_offset(), 12.0) << "the run holds now";
-  for (int i = 13; i <= 13 + static_cast<int>(History::kCapacity); ++i) {
-    history.add(falling(i), false);
-  }
-  EXPECT_DOUBLE_EQ(history.potential_offset(), 13.0) << "after its samples were dropped";
-  History known;
-  known.start(report_at(0), 1.0 / 60.0, 15.0);
-  known.add(falling(1));
-  EXPECT_DOUBLE_EQ(known.potential_offset(), 15.0);
+  history.add(report_at(1), 0.75);
+  EXPECT_FLOAT_EQ(history[Channel::kDrift][0], 0.25F);
+  EXPECT_FLOAT_EQ(history[Channel::kPutIn][0], 0.75F);
+  EXPECT_FLOAT_EQ(history[Channel::kTotal][0], 4.0F) << "all of the energy";
 }
 
 TEST(History, DropsTheOldestSamplesAndKeepsTheTimes) {

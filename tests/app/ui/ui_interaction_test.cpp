@@ -277,6 +277,74 @@ TEST(Keys, GoBackAndForthInThePast) {
   EXPECT_EQ(h.app->session.state().frame, 13);
 }
 
+// The slider of alpha, by a click on its number and by Ctrl and a click anywhere.
+TEST(Slider, TakesATypedValue) {
+  for (const bool on_number : {true, false}) {
+    Headless h;
+    h.app->session.pause();
+    h.frames(2);
+    const ui::Handle* alpha = find_handle("Alpha  α");
+    ASSERT_NE(alpha, nullptr);
+    const float y = 0.5F * (alpha->min.y + alpha->max.y);
+    const float x = on_number ? alpha->max.x - 8.0F : 0.5F * (alpha->min.x + alpha->max.x);
+    if (!on_number) ImGui::GetIO().AddKeyEvent(ImGuiMod_Ctrl, true);
+    h.frames(1);
+    h.click(x, y);
+    if (!on_number) ImGui::GetIO().AddKeyEvent(ImGuiMod_Ctrl, false);
+    h.frames(1);
+    EXPECT_TRUE(ImGui::GetIO().WantTextInput);
+    h.type("0.037");
+    key(h, ImGuiKey_Enter);
+    h.frames(1);
+    EXPECT_DOUBLE_EQ(h.app->session.settings().alpha, 0.037);
+    EXPECT_EQ(h.app->session.settings().mode, Mode::kAdaptive) << "digits are no shortcuts";
+  }
+}
+
+// Between two pictures a fast body has moved on: a press beside it takes the nearest.
+TEST(Hand, TakesTheNearestBodyOfARunThatPlays) {
+  Headless h;
+  Session& session = h.app->session;
+  session.play();
+  h.frames(20);
+  const int box = body_of(*h.app, "box");
+  session.pause();
+  h.frames(2);
+  const ImVec2 at = on_display(*h.app, box);
+  // The first place to the left of the box that shows none of it.
+  float aside = 0.0F;
+  const auto pressed_body = [&](float by) {
+    point_at(h, {at.x - by, at.y});
+    press(h, true);
+    const int body = h.app->hand.body;
+    press(h, false);
+    return body;
+  };
+  while (pressed_body(aside) == box) aside += 1.0F;
+  EXPECT_EQ(pressed_body(aside), -1) << "a press beside it turns the view of a paused run";
+  session.play();
+  h.app->session.set_speed(0.01);
+  if (aside < 28.0F) {
+    EXPECT_EQ(pressed_body(aside), box);
+  }
+  EXPECT_EQ(pressed_body(aside + 60.0F), -1);
+}
+
+TEST(Touch, TargetsOfAPhoneAre44PixelsHigh) {
+  Headless h(390.0F, 844.0F, 2.0F);
+  h.app->session.play();
+  h.frames(2);
+  const ui::Handle* reset = find_handle("reset");
+  ASSERT_NE(reset, nullptr);
+  const float height = reset->max.y - reset->min.y;
+  const float beyond = 0.5F * (44.0F - height) - 1.0F;
+  ASSERT_GT(beyond, 0.0F);
+  ASSERT_GT(h.app->session.state().frame, 0);
+  h.app->session.pause();
+  h.click(0.5F * (reset->min.x + reset->max.x), reset->min.y - beyond);
+  EXPECT_EQ(h.app->session.state().frame, 0);
+}
+
 TEST(Scrubber, DragLooksBackAndPausesTheRun) {
   for (const ImVec2 display : {ImVec2(1280, 720), ImVec2(390, 844)}) {
     Headless h(display.x, display.y);

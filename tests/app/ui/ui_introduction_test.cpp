@@ -137,7 +137,7 @@ TEST(Introduction, ALinkASceneOrASettingSkipsIt) {
 TEST(Introduction, KeysOfTheLaboratoryAreInactive) {
   Visit visit;
   const auto before = visit.h.app->session.state().frame;
-  visit.h.type(" rb13.?h");
+  visit.h.type("rb13.?h");
   EXPECT_TRUE(visit.open());
   EXPECT_TRUE(visit.h.app->session.playing());
   EXPECT_GE(visit.h.app->session.state().frame, before);
@@ -145,6 +145,38 @@ TEST(Introduction, KeysOfTheLaboratoryAreInactive) {
   EXPECT_FALSE(visit.h.app->desk.help);
   visit.h.type("t");
   EXPECT_FALSE(visit.h.app->desk.dark);
+}
+
+TEST(Introduction, IsPausedByMouseAndBySpace) {
+  for (const auto& [width, height] :
+       {std::pair{1280.0F, 720.0F}, std::pair{390.0F, 844.0F}, std::pair{844.0F, 390.0F}}) {
+    Visit visit(width, height);
+    visit.h.press("pause");
+    EXPECT_TRUE(visit.open());
+    EXPECT_FALSE(visit.h.app->session.playing());
+    const auto frame = visit.h.app->session.state().frame;
+    visit.h.frames(20);
+    EXPECT_EQ(visit.h.app->session.state().frame, frame);
+    visit.h.press("play");
+    EXPECT_TRUE(visit.h.app->session.playing());
+    visit.h.type(" ");
+    EXPECT_FALSE(visit.h.app->session.playing());
+    EXPECT_TRUE(visit.open());
+  }
+}
+
+TEST(Introduction, WithReducedMotionItIsAStillOfTheTornChain) {
+  Headless h;
+  h.app->desk.reduced_motion = true;
+  h.app->session.play();
+  h.app->introduction.start(*h.app);
+  h.frames(30);
+  EXPECT_TRUE(h.app->introduction.open());
+  EXPECT_FALSE(h.app->session.playing());
+  EXPECT_NEAR(h.app->session.state().time, 1.0, 1e-9);
+  EXPECT_TRUE(h.app->session.verdict().holds());
+  EXPECT_FALSE(h.app->compare.runs().front().verdict->holds());
+  EXPECT_EQ(h.app->compare.runs().front().simulator->state().frame, 60);
 }
 
 TEST(Introduction, TheAddressStaysPlainUntilItIsLeft) {
@@ -164,7 +196,7 @@ TEST(Introduction, AboutLeadsBackToItAndTheRunStartsAgain) {
   h.app->set("mode", "damping");
   h.app->session.play();
   h.type("?");
-  h.press("Introduction");
+  h.press("First screen");
   h.frames(3);
   EXPECT_TRUE(h.app->introduction.open());
   EXPECT_FALSE(h.app->desk.help);
@@ -205,7 +237,7 @@ TEST(Introduction, BothPicturesAndButtonsAreOnEveryDisplay) {
         EXPECT_GE(button->min.y, pane.y + pane.height) << label;
       }
     }
-    EXPECT_EQ(ui::handles().size(), 2U);
+    EXPECT_EQ(ui::handles().size(), 3U);
   }
 }
 

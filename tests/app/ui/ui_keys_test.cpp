@@ -41,7 +41,7 @@ TEST(Keys, EveryListedKeyHasItsOwnEffect) {
       EXPECT_TRUE(known.insert(key).second) << key;
       Headless h;
       std::string host;
-      h.app->host.copy_link = [&] { host += "link"; };
+      h.app->host.copy_link = [&](const std::string&) { host += "link"; };
       h.app->host.open_file = [&] { host += "open"; };
       h.app->host.save_file = [&](const std::string& name, const std::string&) { host += name; };
       h.app->set("mode", "capped");

@@ -157,6 +157,63 @@ TEST(Link, TheWindowRunsTheExperimentOfALink) {
   EXPECT_NE(h.app->link().find("load=2&seed=3"), std::string::npos) << h.app->link();
 }
 
+// The moment is computed again, with what the user did, and shown from the same place.
+TEST(Link, ToAMomentHasItsTimeItsEventsAndItsCamera) {
+  Headless h;
+  ASSERT_EQ(h.app->set("scene", "bridge"), "");
+  Session& session = h.app->session;
+  session.pause();
+  for (int i = 0; i < 20; ++i) session.step();
+  session.throw_ball({{0.0, 9.0, 3.0}, {0.0, 0.0, -2.0}});
+  for (int i = 0; i < 33; ++i) session.step();
+  h.app->view.camera.orbit(0.4, 0.1);
+  h.app->view.camera.zoom(1.7);
+  h.frames(120);  // it arrives
+  std::string more;
+  h.app->host.copy_link = [&](const std::string& parts) { more = parts; };
+  ASSERT_EQ(h.app->set("menu", "share"), "");
+  h.frames(3);
+  h.press("Copy link to this moment and view");
+  EXPECT_TRUE(more.starts_with("&at=0.88333")) << more;
+
+  Headless other;
+  other.app->session.play();
+  other.app->open_link(h.app->link() + more);
+  EXPECT_EQ(other.app->trouble.title, "");
+  EXPECT_TRUE(other.app->seeking());
+  for (int i = 0; i < 1000 && other.app->seeking(); ++i) other.frames(1);
+  EXPECT_FALSE(other.app->session.playing());
+  EXPECT_EQ(other.app->session.state().frame, 53);
+  EXPECT_EQ(other.app->session.hash(), session.hash());
+  const auto eye = [](const Headless& of) { return of.app->view.camera.eye(of.app->view_rect); };
+  EXPECT_LT((eye(other) - eye(h)).norm(), 0.02);
+  EXPECT_EQ(other.app->link().find("camera"), std::string::npos) << "it is not kept in the address";
+}
+
+TEST(Link, RefusesATimeOrACameraThatIsNone) {
+  Headless h;
+  const std::string before = h.app->view.camera.text();
+  for (const char* text :
+       {"", "1", "1,2", "0,0,10,0,0", "0,0,10,0,0,0,0", "0,0,10,0,0,nan", "0,2,10,0,0,0",
+        "0,0,-1,0,0,0", "0,0,0,0,0,0", "0,0,1e9,0,0,0", ",,,,,"}) {
+    EXPECT_NE(h.app->set("camera", text), "") << text;
+    EXPECT_EQ(h.app->view.camera.text(), before) << text;
+  }
+  for (const char* text : {"", "-1", "0", "nan", "1e9", "soon"}) {
+    EXPECT_NE(h.app->set("at", text), "") << text;
+    EXPECT_FALSE(h.app->seeking()) << text;
+  }
+}
+
+TEST(Link, ATimeIsLeftWhenAnotherRunBegins) {
+  Headless h;
+  ASSERT_EQ(h.app->set("at", "500"), "");
+  h.frames(2);
+  EXPECT_TRUE(h.app->seeking());
+  h.app->reset();
+  EXPECT_FALSE(h.app->seeking());
+}
+
 // A command names the edited scene, and so does a link with too many events. Links of this kind
 // predate events and are still supported.
 TEST(Link, OfAnEditedSceneIsOpened) {

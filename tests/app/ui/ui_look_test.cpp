@@ -81,6 +81,10 @@ TEST_P(Contrast, TextOverThePictureIsReadable) {
 
 TEST_P(Contrast, WordsInColourAreReadableWhereTheyStand) {
   expect(t.amber, t.well, kText, "levels in plots");
+  for (const ImU32 curve : {t.blue, t.orange, t.teal, t.amber, t.purple}) {
+    expect(curve, t.well, kText, "the name at the end of a curve");
+  }
+  expect(t.text, ui::fade(t.orange, 0.5F), kText, "the time of a failure in the map");
   expect(t.orange, t.well, kText, "the cap in plots");
   for (const ImU32 surface : {t.panel, t.raised}) {
     expect(t.teal, surface, kText, "holds");

@@ -240,7 +240,8 @@ TEST(Export, TableHoldsTheChannelsOfTheShownPlots) {
   ASSERT_EQ(lines.size(), 31U);
   EXPECT_EQ(
       lines[0],
-      "frame,time,substeps,substeps_mean,substeps_least,kinetic,potential,energy,energy_drift,"
+      "frame,time,substeps,substeps_mean,substeps_least,kinetic,potential,energy,energy_put_in,"
+      "energy_drift,"
       "constraint_error,joint_gap");
   EXPECT_TRUE(lines[30].starts_with("30,0.5,")) << lines[30];
   // The energy is the total, not its change.

@@ -33,6 +33,24 @@ TEST(Session, SpeedScalesTheTime) {
   EXPECT_NEAR(frames, 60, 1);
 }
 
+// Without a budget a call takes one frame, however much time has passed.
+TEST(Session, PaceIsTheRateOfTheLastSecondsFromTheFirstCallOn) {
+  Session session(shipped("pendulum"));
+  EXPECT_EQ(session.pace(), 1.0);
+  session.play();
+  for (int i = 0; i < 10; ++i) session.advance(10.0 * kFrame, 0.0);
+  EXPECT_NEAR(session.pace(), 0.1, 0.02);
+  for (int i = 0; i < 60; ++i) session.advance(kFrame, 10.0);  // faster for one second
+  EXPECT_GT(session.pace(), 0.3);
+  for (int i = 0; i < 1200; ++i) session.advance(kFrame, 10.0);
+  EXPECT_GT(session.pace(), 0.99);
+  session.set_speed(0.1);
+  for (int i = 0; i < 1200; ++i) session.advance(kFrame, 10.0);
+  EXPECT_NEAR(session.pace(), 1.0, 1e-6) << "of the chosen speed";
+  session.reset();
+  EXPECT_EQ(session.pace(), 1.0);
+}
+
 TEST(Session, LongAbsenceBringsNoBacklog) {
   Session session(shipped("pendulum"));
   session.play();
@@ -202,6 +220,19 @@ TEST(Past, IsFoundByTime) {
   EXPECT_EQ(past.at_time(100.0), 60U);
 }
 
+// A recommendation is of the scene that was swept, not of the same without gravity.
+TEST(Session, SavedAfterAnEditItHasNoRecommendation) {
+  Session session(shipped("swinging_box"));
+  ASSERT_TRUE(session.loaded().recommended.has_value());
+  EXPECT_EQ(session.as_scene().recommended, session.loaded().recommended);
+  Effects effects = session.scene().effects;
+  effects.gravity = false;
+  session.set_effects(effects);
+  EXPECT_FALSE(session.as_scene().recommended.has_value());
+  session.reset();
+  EXPECT_TRUE(session.as_scene().recommended.has_value());
+}
+
 TEST(Substep, ContinuesToTheSameFrame) {
   Session whole(shipped("swinging_box"));
   Session pieces(shipped("swinging_box"));
@@ -285,6 +316,7 @@ TEST(Slices, OfAnAbandonedFrameChangeNothing) {
     ASSERT_TRUE(session.slices().open());
     EXPECT_GT(session.slices().taken(), 0);
     EXPECT_EQ(session.hash(), before) << "the last complete frame is shown";
+    EXPECT_EQ(session.substeps_left(), 0) << "nobody takes single sub-steps";
   };
   begin();
   session.pause();

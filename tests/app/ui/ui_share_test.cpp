@@ -246,7 +246,7 @@ TEST(ShareMenu, OffersOnlyWhatTheHostSupports) {
   Headless h;
   h.app->session.pause();
   bool copied = false;
-  h.app->host.copy_link = [&] { copied = true; };
+  h.app->host.copy_link = [&](const std::string&) { copied = true; };
   h.frames(2);
   // The button next to the last of the bar; the entries above it, at any height.
   const ImVec2 display = ImGui::GetIO().DisplaySize;

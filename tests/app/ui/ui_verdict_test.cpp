@@ -11,7 +11,7 @@ namespace substep {
 namespace {
 
 TEST(VerdictWords, AgreeWithTheVerdict) {
-  EXPECT_EQ(verdict_words("holds"), "Stable");
+  EXPECT_EQ(verdict_words("holds"), "Holds");
   EXPECT_EQ(verdict_words("fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)"),
             "Failed at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)");
   EXPECT_EQ(verdict_words("disturbed at 1.20 s"), "Disturbed at 1.20 s");
@@ -36,7 +36,7 @@ TEST(Verdict, NothingIsShownBeforeTheFirstFrame) {
   EXPECT_EQ(verdict_note(session.verdict(), session.judged()), "Ready");
   session.step();
   EXPECT_TRUE(session.judged());
-  EXPECT_EQ(verdict_note(session.verdict(), session.judged()), "Stable");
+  EXPECT_EQ(verdict_note(session.verdict(), session.judged()), "Holds");
   session.go_to(0);
   EXPECT_FALSE(session.judged());
   session.grab(1, Vec3::Zero(), Vec3::Zero());

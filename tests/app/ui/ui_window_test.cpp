@@ -95,6 +95,49 @@ TEST(Window, PanelsOfTheDesktopNeedNoScrolling) {
   }
 }
 
+// Whatever is tracked stays in the picture for as long as the scene is judged.
+TEST(Window, TheCameraFollowsAMotionThatWouldLeaveThePicture) {
+  for (const char* name : {"free_fall", "sliding_box"}) {
+    for (const auto& [width, height] : {std::pair{1280.0F, 720.0F}, std::pair{390.0F, 844.0F}}) {
+      Headless h(width, height);
+      h.app->run(shipped(name));
+      Session& session = h.app->session;
+      session.pause();
+      h.frames(2);
+      const Vec3 home = h.app->view.camera.target();
+      const auto body = index(session.scene().criteria.track.value_or(0));
+      for (int i = 0; i < 400; ++i) {
+        session.step();
+        if (i % 20 != 0) continue;
+        h.frames(1);
+        ImVec2 p;
+        ASSERT_TRUE(ui::project(*h.app, session.state().x[body], p));
+        const ViewRect& v = h.app->view_rect;
+        ASSERT_TRUE(p.x > v.x && p.x < v.x + v.width && p.y > v.y && p.y < v.y + v.height)
+            << name << " at " << session.state().time << " s: " << p.x << ", " << p.y;
+      }
+      EXPECT_GT((h.app->view.camera.target() - home).norm(), 1.0) << name;
+      session.reset();
+      h.frames(1);
+      EXPECT_EQ(h.app->view.camera.target(), home) << name;
+    }
+  }
+}
+
+TEST(Window, TheCameraStaysWhileTheMotionIsInThePicture) {
+  Headless h;
+  for (const auto& scene : h.app->library.scenes()) {
+    h.app->run(scene);
+    h.app->session.pause();
+    h.frames(1);
+    const Vec3 home = h.app->view.camera.target();
+    if (home != scene->camera.target) continue;  // it starts above the picture
+    for (int i = 0; i < 60; ++i) h.app->session.step();
+    h.frames(1);
+    EXPECT_EQ(h.app->view.camera.target(), home) << scene->name;
+  }
+}
+
 // The camera uses only the start: the scene's own camera must leave room for falling bodies.
 TEST(Window, CratesFallWhereNoPanelIsOverThem) {
   Headless h;

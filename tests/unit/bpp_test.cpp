@@ -250,8 +250,12 @@ TEST(Bpp, FindsTheSolutionFromInsideTheBounds) {
     RandomSystem problem = random_system(random, {4, 2, 8, mu, 0.01, kMaxRows, trial % 3});
     const SolveReport report = solver.solve(problem.system(), settings);
     EXPECT_LE(report.status, SolveStatus::kUnsettled);
-    if (mu == 0.0) EXPECT_EQ(report.status, SolveStatus::kSolved);
-    if (report.status == SolveStatus::kSolved) EXPECT_LT(lcp_residual(problem.system()), 1e-8);
+    if (mu == 0.0) {
+      EXPECT_EQ(report.status, SolveStatus::kSolved);
+    }
+    if (report.status == SolveStatus::kSolved) {
+      EXPECT_LT(lcp_residual(problem.system()), 1e-8);
+    }
   }
 }
 

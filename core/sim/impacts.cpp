@@ -76,6 +76,7 @@ bool Simulator::Impl::solve_impacts(Substep& sub, std::span<Block> rows, std::sp
                                     std::span<const InverseMass> masses, FrameReport& report) {
   System system{rows, masses, u, {}, sub.dt, sub.R_WB, scene->regularisation};
   system.limits = limits_of_solve(sub, report);
+  system.contacts_yield = sweeps_motion(sub);
   const SolveReport solved = impact_solver().find_velocities(system, settings);
   if (solved.status == SolveStatus::kOverLimits) {
     refuse_solve(sub, solved, report);

@@ -151,6 +151,7 @@ bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
                 sub.R_WB, scene->regularisation};
   system.force_time = sub.impulse_time;
   system.limits = limits_of_solve(sub, report);
+  system.contacts_yield = sweeps_motion(sub);
   const bool is_struck = begins_with_impact || !sub.struck.empty();
   system.u_sliding = is_struck ? sub.u_before : sub.integrator->velocities_at_start(sub);
   sub.integrator->extend(system, sub, state);

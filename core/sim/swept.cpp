@@ -222,6 +222,7 @@ bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
   System system{parting.all(), sub.inverse_mass,     shift, {}, sub.dt,
                 sub.R_WB,      scene->regularisation};
   system.limits = limits_of_solve(sub, report);
+  system.contacts_yield = true;
   copy(shift, u_star);
   SolveReport solved = by.find_velocities(system, sub.settings);
   if (drift_law(sub.settings) == Drift::kExact && joints) {

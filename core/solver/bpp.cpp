@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kTolerance = 1e-11;  // on bounds and complementarity, relative
 constexpr int kPasses = 4;            // refreshes of the friction bounds, the first included
-constexpr int kWithoutProgress = 10;   // pivots that do not reduce the infeasible rows
+constexpr int kWithoutProgress = 10;  // pivots in a row before the interior-point method
+constexpr int kSinglePivots = 50;     // per solve: Murty's rule terminates; this bounds its time
+constexpr int kSweeps = 100;          // sweeps of the fallback: 25 do not hold a house of cards
 
 bool any_tight(const Block& block) {
   return std::any_of(block.active_set, block.active_set + block.rows,
@@ -60,6 +62,7 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
   ldlt_.reserve(bodies, blocks);
   friction_bound_.reserve(blocks);
   centre_.reserve(blocks);
+  gauss_seidel_.reserve(bodies, blocks);
   interior_point_.reserve(blocks);
   bounds_.reserve(blocks * kMaxRows);
 }
@@ -72,40 +75,62 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
     return;
   }
   int passes = kPasses;
+  int single_pivots = kSinglePivots;
   for (int pass = 0; pass < passes; ++pass) {
     ++report.passes;
     set_friction_bounds(system);
     if (settings.friction_cone == FrictionCone::kCone) soften_sliding(system);
-    if (!pivot_blocks(system, settings.pivots, report)) {
-      if (report.status == SolveStatus::kOverLimits || !approach(system, report)) return;
-      passes = std::min(passes, pass + 2);  // it costs as much as three of the others
+    const int without_progress = system.contacts_yield ? kWithoutProgress : settings.pivots;
+    bool found = pivot_blocks(system, settings.pivots, without_progress, report);
+    if (!found && report.status != SolveStatus::kOverLimits) {
+      if (system.contacts_yield) {
+        found = approach(system, report);
+        passes = std::min(passes, pass + 2);  // it costs as much as three of the others
+      } else {
+        found = pivot_singly(system, single_pivots, report);
+      }
+    }
+    if (report.status == SolveStatus::kOverLimits) return;
+    if (!found) {
+      go_on_with_gauss_seidel(system, settings, report);
+      return;
     }
     if (bounds_settled(system)) return;
   }
   report.status = SolveStatus::kUnsettled;
 }
 
-// Infeasible rows may become more, and a set may come again. As in Júdice and Pires (1994) only so
-// many pivots may follow one another that do not reduce the fewest infeasible rows.
-bool Bpp::pivot_blocks(const System& system, int most, SolveReport& report) {
+// Infeasible rows may become more, and sets may come again. The limit on pivots that do not reduce
+// the fewest infeasible rows is that of Júdice and Pires (1994).
+bool Bpp::pivot_blocks(const System& system, int most, int without_progress, SolveReport& report) {
   int fewest = std::numeric_limits<int>::max();
-  int without_progress = 0;
-  for (int pivots = 0;; ++pivots) {
+  int since = 0;
+  for (int i = 0; i < most && since < without_progress; ++i) {
     solve_active_set(system);
     if (over_limits(system, report)) return false;
-    const int infeasible = pivot(system);
+    const int infeasible = pivot(system, false);
     if (infeasible == 0) return true;
     ++report.pivots;
-    without_progress = infeasible < fewest ? 0 : without_progress + 1;
+    since = infeasible < fewest ? 0 : since + 1;
     fewest = std::min(fewest, infeasible);
-    if (pivots >= most || without_progress >= kWithoutProgress) return false;
+  }
+  return false;
+}
+
+bool Bpp::pivot_singly(const System& system, int& left, SolveReport& report) {
+  for (;;) {
+    solve_active_set(system);
+    if (over_limits(system, report)) return false;
+    if (pivot(system, true) == 0) return true;
+    ++report.pivots;
+    if (--left < 0) return false;
   }
 }
 
 // Near the minimum the sets are mostly right, and a pivot or two make the solution exact. Rows that
 // hardly push and hardly separate may be in either; then the point that has been reached is taken.
 bool Bpp::approach(const System& system, SolveReport& report) {
-  constexpr int kPivots = 2;
+  constexpr int kPivots = 3;
   constexpr double kClose = 1e-11;  // relative products of impulses and speeds
   constexpr double kClosest = 1e-13;
   bounds_.resize(system.blocks.size() * kMaxRows);
@@ -118,18 +143,14 @@ bool Bpp::approach(const System& system, SolveReport& report) {
   }
   copy(ldlt_.u_star(), system.u);
   interior_point_.begin(system, bounds_);
-  bool close = false;
   for (const double end : {kClose, kClosest}) {
-    close = interior_point_.advance(system, end, ldlt_) || close;
+    const bool is_close = interior_point_.advance(system, end, ldlt_) || end < kClose;
     if (over_limits(system, report)) return false;
-    if (!close) break;
-    if (pivot_blocks(system, kPivots, report)) return true;
-    if (report.status == SolveStatus::kOverLimits) return false;
+    if (pivot_blocks(system, kPivots, kPivots, report)) return true;
+    if (!is_close || report.status == SolveStatus::kOverLimits) return false;
   }
   interior_point_.settle(system, ldlt_);
-  if (over_limits(system, report)) return false;
-  if (!close) report.status = SolveStatus::kUnsolved;
-  return close;
+  return !over_limits(system, report);
 }
 
 // The centre's share of w moves into the bias: r (x - x0) + bias = r x + (bias - r x0).
@@ -156,6 +177,7 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
     return {.status = SolveStatus::kOverLimits, .memory_needed = ldlt_.needed_memory()};
   }
   SolveReport report;
+  has_impulses_ = false;
   any_bounded_ = false;
   for (Block& block : system.blocks) {
     if (!block.is_bounded()) continue;
@@ -195,7 +217,32 @@ SolveReport Bpp::find_velocities_again(const System& system, const Settings& set
   return report;
 }
 
+// With the w of System, linear in the impulses z, the solution is where
+//   1/2 z (w(z) + w(0))   [J]
+// is minimal within the bounds; it is 0 at z = 0. A badly wrong active set increases it by orders
+// of magnitude.
+bool Bpp::better_than_none(const System& system) const {
+  double energy = 0.0;
+  double speed[kMaxRows];
+  for (const Block& block : system.blocks) {
+    row_speeds(block, ldlt_.u_star(), speed);
+    for (int row = 0; row < block.rows; ++row) {
+      energy += 0.5 * block.impulse[row] * (speed[row] + block.bias[row]);
+    }
+    apply_impulse(block, block.impulse, system.inverse_mass, system.u);
+  }
+  for (const Block& block : system.blocks) {
+    row_speeds(block, system.u, speed);
+    for (int row = 0; row < block.rows; ++row) {
+      const double w = speed[row] + block.softness[row] * block.impulse[row] + block.bias[row];
+      energy += 0.5 * block.impulse[row] * w;
+    }
+  }
+  return energy < 0.0;
+}
+
 std::int64_t Bpp::find_impulses(std::span<Block> blocks) {
+  if (has_impulses_) return 0;
   const std::int64_t before = ldlt_.flops();
   ldlt_.find_impulses(blocks);
   return ldlt_.flops() - before;
@@ -207,6 +254,50 @@ bool Bpp::over_limits(const System& system, SolveReport& report) const {
   report.status = SolveStatus::kOverLimits;
   report.work_needed = work;
   return true;
+}
+
+void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings,
+                                  SolveReport& report) {
+  report.status = SolveStatus::kUnsolved;
+  find_impulses(system.blocks);
+  has_impulses_ = true;
+  for (Block& block : system.blocks) {
+    if (!block.is_bounded()) continue;
+    if (block.rows == 3 && block.sliding > 0.0) {  // it has a cone of its own
+      block.softness[2] = block.softness[1];
+      block.bias[2] -= std::exchange(block.across, 0.0);
+      block.sliding = 0.0;
+    }
+    block.impulse[0] = std::min(block.hi, std::max(block.lo, block.impulse[0]));
+    const double bound = block.mu * block.impulse[0];
+    for (int row = 1; row < block.rows; ++row) {
+      block.impulse[row] = std::min(bound, std::max(-bound, block.impulse[row]));
+    }
+  }
+  const auto restore = [&] { copy(ldlt_.u_star(), system.u); };
+  restore();
+  Settings sweeps = settings;
+  sweeps.iterations = std::max(settings.iterations, kSweeps);
+  sweeps.warm_start = better_than_none(system);
+  restore();
+  const SolveReport swept = gauss_seidel_.solve(system, sweeps);
+  report.flops += swept.flops;
+  if (swept.status == SolveStatus::kOverLimits) {
+    report.status = swept.status;
+    report.work_needed = swept.work_needed;
+  }
+  for (Block& block : system.blocks) {
+    if (!block.is_bounded()) continue;
+    block.active_set[0] = !(block.impulse[0] > block.lo)   ? std::int8_t{-1}
+                          : !(block.impulse[0] < block.hi) ? std::int8_t{1}
+                                                           : std::int8_t{0};
+    for (int row = 1; row < block.rows; ++row) {
+      const double bound = friction_bound(block, row, block.impulse[0]);
+      block.active_set[row] = block.impulse[row] >= bound    ? std::int8_t{1}
+                              : block.impulse[row] <= -bound ? std::int8_t{-1}
+                                                             : std::int8_t{0};
+    }
+  }
 }
 
 // A row active in the last sub-step starts active. A new contact starts free if the bodies would
@@ -286,8 +377,9 @@ void Bpp::move(std::span<Block> blocks, const Move& move) {
   set = move.set;
 }
 
-int Bpp::pivot(const System& system) {
+int Bpp::pivot(const System& system, bool one_only) {
   int wrong = 0;
+  Move last;
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
     if (!block.is_bounded()) continue;
@@ -310,9 +402,14 @@ int Bpp::pivot(const System& system) {
       }
       if (set == block.active_set[row]) continue;
       ++wrong;
-      move(system.blocks, {i, row, set});
+      if (one_only) {
+        last = {i, row, set};
+      } else {
+        move(system.blocks, {i, row, set});
+      }
     }
   }
+  if (one_only && wrong > 0) move(system.blocks, last);
   return wrong;
 }
 

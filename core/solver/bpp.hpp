@@ -3,17 +3,19 @@
 #include <vector>
 
 #include "core/solver/interior_point.hpp"
+#include "core/solver/pgs.hpp"
 #include "core/solver/saddle_ldlt.hpp"
 #include "core/solver/solver.hpp"
 
 namespace substep {
 
 /// Block principal pivoting (Judice and Pires 1994) on a direct factorisation. Active rows have
-/// their impulses at a bound; free rows solve the linear system, and all infeasible rows change
-/// sets at once. Where that makes no progress, or not within Settings::pivots steps, as with many
-/// rows that are redundant, an interior-point method approaches the solution. Friction bounds are
-/// fixed meanwhile, initialised from the seed impulses, and refreshed at most four times in an
-/// outer loop.
+/// their impulses at a bound; free rows solve the linear system. All infeasible rows change sets at
+/// once, for Settings::pivots steps. In piles most rows are redundant and the sets may cycle: if
+/// all contacts yield a little, an interior-point method follows; else one row at a time changes
+/// sets (the last, Murty's rule), which cannot cycle but can be slow. Beyond the limits of both
+/// Gauss-Seidel takes over. Friction bounds are fixed meanwhile, initialised from the seed
+/// impulses, and refreshed at most four times in an outer loop.
 ///
 /// A numerical regularisation r lets heavy loads sink. With Settings::refinements it acts only on
 /// the deviation from a centre x0, the impulses of the last sub-step, then of the last solve,
@@ -46,24 +48,35 @@ class Bpp final : public Solver {
   /// True if the solution stays valid under the friction bounds it implies.
   [[nodiscard]] bool bounds_settled(const System& system) const;
   void solve_active_set(const System& system);
-  /// Moves infeasible rows to the correct set. @return their number
-  int pivot(const System& system);
+  /// Moves infeasible rows to the correct set. @param one_only only the last such row @return
+  /// number of infeasible rows
+  int pivot(const System& system, bool one_only);
   void move(std::span<Block> blocks, const Move& move);
-  /// Pivots until no row is infeasible, at most so many times and as long as it makes progress.
-  /// @return true if none is; else look at the status
-  bool pivot_blocks(const System& system, int most, SolveReport& report);
-  /// Finds the impulses from inside their bounds. @return true if it does; else look at the status
+  // Each returns true if no row is infeasible; else look at the status.
+  /// Moves all infeasible rows, at most so many times, and in a row without progress.
+  bool pivot_blocks(const System& system, int most, int without_progress, SolveReport& report);
+  /// Moves the last infeasible row. @param left times
+  bool pivot_singly(const System& system, int& left, SolveReport& report);
+  /// Finds the impulses from inside their bounds. Not for rigid contacts: barriers that vanish
+  /// leave a singular system of their redundant rows.
   bool approach(const System& system, SolveReport& report);
   /// Tolerances on the complementarity of a row, w [m/s], and on its bounds [N s].
   [[nodiscard]] double speed_tolerance(const System& system, const Block& contact, int row) const;
   [[nodiscard]] double impulse_tolerance(const System& system, const Block& contact, int row) const;
+  /// True if the current impulses are a better initial guess than zero.
+  /// @param system u* on entry; overwritten
+  [[nodiscard]] bool better_than_none(const System& system) const;
   /// True if the work limit is exceeded; sets the report's status.
   bool over_limits(const System& system, SolveReport& report) const;
+  /// Starts from the current impulses clamped to their bounds, or from zero.
+  void go_on_with_gauss_seidel(const System& system, const Settings& settings, SolveReport& report);
 
   SaddleLdlt ldlt_;
+  Pgs gauss_seidel_;
   InteriorPoint interior_point_;
   std::vector<Bounds> bounds_;  // per block, kMaxRows each
   bool any_bounded_ = false;
+  bool has_impulses_ = false;           // all impulses are known, from Gauss-Seidel or refinement
   std::vector<double> friction_bound_;  // per block [N s]
   struct Centre {
     double row[kMaxRows];

@@ -79,13 +79,16 @@ struct System {
 
   SolveLimits limits{};
 
+  bool contacts_yield = false;  // every contact has a softness, so that its impulse is unique
+
   double frame_share = 1.0;  // dt over the length of the frame, for small steps [-]
 };
 
 enum class SolveStatus : std::uint8_t {
   kSolved,     // BPP, Newton: complementary within tolerance. PGS, XPBD: all sweeps done
   kUnsettled,  // BPP: complementary, but friction bounds not converged; the next sub-step continues
-  kUnsolved,   // BPP: its interior-point method did not converge; Newton: not within its steps
+  kUnsolved,   // BPP: pivot limit reached; Gauss-Seidel took over. Newton: not converged within its
+               // steps
   kOverLimits,  // System::limits exceeded; impulses and velocities are invalid
 };
 

@@ -273,8 +273,8 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
   }
   if (reads(s, "pivots") && effects.contact) {
     slider(look, "Pivots", s.pivots, 1, 100, true,
-           "Block pivots of BPP (Judice and Pires 1994) before other ways follow: an "
-           "interior-point method, or pivots of single rows.");
+           "Block pivots of BPP (Judice and Pires 1994) before its method changes: to an "
+           "interior-point method, or to pivots of single rows.");
   }
   if (effects.gyroscopic) {
     choose(look, "Gyroscopic", kGyroscopics, s.gyroscopic, "How the torque I ω × ω is integrated.");

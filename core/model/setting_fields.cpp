@@ -28,7 +28,7 @@ constexpr std::array kFields{
     SettingField{"refinements",
                  "additional solves of bpp that remove the effect of the scene's regularisation",
                  CountSetting{&S::refinements, 0, 1000}},
-    SettingField{"pivots", "block pivots of bpp before other ways follow",
+    SettingField{"pivots", "block pivots of bpp before its method changes",
                  CountSetting{&S::pivots, 1, 1000}},
     SettingField{"mode", "stabilisation of a step", ChoiceSetting<Mode>{&S::mode}},
     SettingField{"alpha", "stability threshold (Eq. 5); N is proportional to alpha^-1/2 (Eq. 10)",

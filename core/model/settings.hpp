@@ -43,7 +43,7 @@ struct BasicSettings {
   bool warm_start = false;        // PGS starts from the last sub-step's forces
   Forces forces = Forces::kEnd;   // Newton
   int refinements = 0;  // BPP: refinement solves that remove the scene's regularisation, >= 0
-  int pivots = 20;      // block pivots of BPP before other ways follow, >= 1
+  int pivots = 20;      // block pivots of BPP before its method changes, >= 1
 
   Mode mode = Mode::kAdaptive;
   double alpha = 0.1;             // stability threshold of Eq. 5, in (0, 1] [-]; N ~ alpha^-1/2

@@ -200,6 +200,7 @@ bool Simulator::Impl::ends_impact(const Substep& sub, const Block& block) const 
 bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
   parting.clear();
   predict_motions(sub);
+  // If one overlap is too deep, all are parted: a pile then needs it in few sub-steps.
   const bool any_parts = std::any_of(sub.rows.begin(), sub.rows.end(),
                                      [&](const Block& block) { return parts(block); });
   for (const Block& row : sub.rows) {

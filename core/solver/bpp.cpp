@@ -85,7 +85,7 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
     if (!found && report.status != SolveStatus::kOverLimits) {
       if (system.contacts_yield) {
         found = approach(system, report);
-        passes = std::min(passes, pass + 2);  // it costs as much as three of the others
+        passes = std::min(passes, pass + 2);  // it costs as much as all others
       } else {
         found = pivot_singly(system, single_pivots, report);
       }
@@ -127,8 +127,8 @@ bool Bpp::pivot_singly(const System& system, int& left, SolveReport& report) {
   }
 }
 
-// Near the minimum the sets are mostly right, and a pivot or two make the solution exact. Rows that
-// hardly push and hardly separate may be in either; then the point that has been reached is taken.
+// Near the minimum the sets are mostly right, and a few pivots make the solution exact. Rows that
+// hardly push and hardly separate may keep them from it; then the point that was reached is taken.
 bool Bpp::approach(const System& system, SolveReport& report) {
   constexpr int kPivots = 3;
   constexpr double kClose = 1e-11;  // relative products of impulses and speeds
@@ -142,7 +142,7 @@ bool Bpp::approach(const System& system, SolveReport& report) {
     }
   }
   copy(ldlt_.u_star(), system.u);
-  interior_point_.begin(system, bounds_);
+  interior_point_.begin(system, bounds_, ldlt_);
   for (const double end : {kClose, kClosest}) {
     const bool is_close = interior_point_.advance(system, end, ldlt_) || end < kClose;
     if (over_limits(system, report)) return false;

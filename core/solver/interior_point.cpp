@@ -13,8 +13,9 @@ constexpr double kRounding = 1e-8;  // of the first mean product: below it round
 
 }  // namespace
 
-// All products of distances and speeds are those of stopping the fastest row.
-void InteriorPoint::begin(const System& system, std::span<const Bounds> bounds) {
+// All products of distances and speeds are equal at first: the mean over the rows of the impulse
+// that stops the fastest row, times its speed.
+void InteriorPoint::begin(const System& system, std::span<const Bounds> bounds, SaddleLdlt& ldlt) {
   rows_.clear();
   iterations_ = 0;
   double fastest = 0.0;
@@ -29,6 +30,7 @@ void InteriorPoint::begin(const System& system, std::span<const Bounds> bounds) 
       const bool fixed = !(of.lo < of.hi) || block.bias[row] >= kStaysOpen;
       block.active_set[row] = fixed ? std::int8_t{-1} : std::int8_t{0};
       if (fixed) {
+        ldlt.touch(i);
         block.impulse[row] = of.lo;
         continue;
       }
@@ -45,14 +47,15 @@ void InteriorPoint::begin(const System& system, std::span<const Bounds> bounds) 
       product += 1.0 / r.scale;
     }
   }
+  n_bounds_ = first_ = mean_ = 0.0;
+  if (!(fastest > 0.0)) return;  // no row, or all at rest: the sets are right
   product *= fastest * fastest / static_cast<double>(rows_.size());
-  n_bounds_ = 0.0;
   for (Row& r : rows_) {
     const double margin = std::min(fastest / r.scale, 0.25 * (r.above + r.below));
     const double inwards = std::max(0.0, margin - r.above) - std::max(0.0, margin - r.below);
     r.x += inwards;
-    r.above += inwards;
-    r.below -= inwards;
+    r.above = std::max(r.above + inwards, margin);
+    r.below = std::max(r.below - inwards, margin);
     r.z_lo = product / r.above;
     r.z_hi = product / r.below;  // 0 without an upper bound
     n_bounds_ += r.below < kUnbounded ? 2.0 : 1.0;

@@ -6,6 +6,7 @@
 
 #include "core/model/scene_builder.hpp"
 #include "core/sim/simulator.hpp"
+#include "scenes/generator/scenes.hpp"
 #include "tests/support/keep_largest.hpp"
 
 namespace substep::test {
@@ -49,7 +50,7 @@ Pile run_pile(const Scene& scene, int frames) {
   return pile;
 }
 
-// Which rows push is hardly decided, and block pivoting cycles.
+// Which rows push is nearly undetermined, and block pivoting cycles.
 TEST(Piles, APyramidOf300CubesIsSolved) {
   const Pile pile = run_pile(pyramid_of(24, 0.5), 90);
   EXPECT_LE(pile.unsolved, 2) << "of some 100 solves";
@@ -58,8 +59,16 @@ TEST(Piles, APyramidOf300CubesIsSolved) {
   EXPECT_LT(pile.kinetic, 1e-3);
 }
 
-// Contacts yield to their force by 5e-8 m in each of these frames. Once the deepest overlap exceeds
-// 1e-4 of the half width, they are parted.
+// A ball breaks through: most rows slide, and many are redundant.
+TEST(Piles, AWallThatIsStruckIsSolved) {
+  Scene scene = scenes::wall({});
+  scene.settings = substep::Settings{};
+  const Pile pile = run_pile(scene, 100);
+  EXPECT_LT(5 * pile.unsolved, pile.substeps);
+}
+
+// Contacts yield to their force by up to 1.5e-7 m in each of these frames. Once the deepest overlap
+// exceeds 1e-4 of the half width, they are parted.
 TEST(Piles, OverlapsOfARestingPyramidStayBelowTheAllowedOne) {
   constexpr double kAllowed = 5e-5;
   const Scene scene = pyramid_of(15, 0.5);

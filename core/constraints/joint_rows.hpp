@@ -57,8 +57,8 @@ concept JointRows = PoseRows<Rows> && requires(const J& joint, Block& block) {
 /// In the order of the Joint variant.
 using JointTable = std::tuple<BallRows, HingeRows, PrismaticRows, WeldRows, DistanceRows>;
 
-/// Coordinates of joints that limits, motors and drives act on, one row each: of joints of the type
-/// Owner.
+/// Coordinates of joints that limits, motors, drives and dry friction act on, one row each: of
+/// joints of the type Owner.
 using CoordinateTable = std::tuple<HingeAngle, SlideTravel>;
 
 inline constexpr std::size_t kJointKinds = std::variant_size_v<Joint>;

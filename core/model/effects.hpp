@@ -16,11 +16,11 @@ struct Effects {
   bool contact = false;
   bool friction = false;
   bool restitution = false;
-  bool external = false;  // the constant forces and torques of bodies
-  bool limits = false;    // of joints
-  bool motors = false;    // of joints
-  bool drives = false;    // of joints
-  bool joint_friction = false;
+  bool external = false;        // the constant forces and torques of bodies
+  bool limits = false;          // of joints
+  bool motors = false;          // of joints
+  bool drives = false;          // of joints
+  bool joint_friction = false;  // dry
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -11,7 +11,6 @@ namespace {
 
 // A body is at rest if all its points were slower than kRestSpeed for kRestTime.
 constexpr double kRestSpeed = 0.04;  // half widths of its shape per second [1/s]
-constexpr double kCreeps = 1e-3;     // part of that speed for a body with a drive
 constexpr double kRestTime = 0.5;    // [s]
 
 double half_width(const Body& body) {
@@ -67,9 +66,7 @@ void Simulator::Impl::time_rest() {
   state.rest.resize(scene->bodies.size(), 0.0);
   for (std::size_t i = 0; i < state.rest.size(); ++i) {
     const Body& body = scene->bodies[i];
-    const bool creeps = !current.motors_on.empty() && current.motors_on[i].creeps;
-    const double rest_speed = creeps ? kCreeps * kRestSpeed : kRestSpeed;
-    const bool slow = fastest_point(body, state.u[i]) < rest_speed * half_width(body);
+    const bool slow = fastest_point(body, state.u[i]) < kRestSpeed * half_width(body);
     state.rest[i] = slow ? std::min(state.rest[i] + scene->frame, kRestTime) : 0.0;
   }
 }

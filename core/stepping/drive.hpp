@@ -29,7 +29,8 @@ double effort_at(const Drive& drive, double coordinate, double speed);
 
 /// Sets bias, softness and bounds of a row of dry friction: its impulse opposes the motion that the
 /// row stops if it can. The softness, 1e-9 of the mobility of the row, lets redundant rows of a
-/// loop share a force; it acts on the change of the impulse alone, so that nothing creeps.
+/// loop share a force; it acts on the change of the impulse alone, so that nothing
+/// creeps but by the scene's regularisation.
 /// @param effort largest torque or force [N m or N]  @param time duration of the impulse [s]
 void set_joint_friction(const Substep& sub, double effort, double time, Block& row);
 

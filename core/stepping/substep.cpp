@@ -25,10 +25,7 @@ std::vector<MotorsOnBody> motors_on_bodies(const Scene& scene) {
         (axes_of(joint)->slides ? sum.force : sum.torque) += motor->effort;
         sum.moves = sum.moves || motor->velocity != 0.0;
       }
-      if (drive != nullptr) {
-        sum.creeps = true;
-        sum.moves = sum.moves || drive->velocity != 0.0;
-      }
+      if (drive != nullptr) sum.moves = true;
     }
   }
   return on;

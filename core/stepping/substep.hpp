@@ -20,8 +20,7 @@ class TimeIntegrator;
 struct MotorsOnBody {
   double force = 0.0;   // sum of the largest forces [N]
   double torque = 0.0;  // sum of the largest torques [N m]
-  bool moves = false;   // one of them has a velocity: the body does not stay at rest
-  bool creeps = false;  // a drive may bring it slowly to its target
+  bool moves = false;   // a motor with a velocity, or a drive: the body does not stay at rest
 };
 
 /// The data of one sub-step, in the order in which its parts are computed. Vectors hold one element
@@ -52,7 +51,7 @@ struct Substep {
   std::vector<Vec6> u_start;  // at its start [m/s, rad/s]
   std::span<Block> rows;      // phi, J; later bias, softness, impulse
   SolveLimits limits;
-  std::vector<MotorsOnBody> drives_on;    // forces and torques at its start; empty without drives
+  std::vector<MotorsOnBody> drives_on;    // forces and torques of drives; empty without any
   std::vector<double> impulse_time;       // duration of applied forces [s]
   std::vector<Vec6> u_before;             // after the gyroscopic torque, before forces and rows
   std::vector<InverseMass> inverse_mass;  // Mt^-1

@@ -83,12 +83,13 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     clearTimeout(timer);
     timer = setTimeout(write, settled);
   };
+  const leavesOutTheScene = (text) => wasm.ownScene() !== "" && !text.includes("scene64=");
+
   /** Copies the address. @param more further parts of the fragment, each after an "&" */
   host.copyLink = async (more) => {
     const text = await url() + more;
-    const own = wasm.ownScene() !== "";
     if (!(await host.copyText(text))) return;
-    wasm.tell(own && !text.includes("scene64=")
+    wasm.tell(leavesOutTheScene(text)
       ? "Link copied, but this scene is too large for it, so send its file as well" : "Link copied");
     host.changed?.();
   };
@@ -100,7 +101,9 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     const html = `<iframe src="${escaped(await url())}" title="substep: ${title}" width="960" ` +
       'height="600" style="border: 0" loading="lazy"></iframe>';
     if (!(await host.copyText(html))) return;
-    wasm.tell("HTML copied: paste it into a page");
+    wasm.tell(leavesOutTheScene(html)
+      ? "HTML copied, but this scene is too large for it"
+      : "HTML copied: paste it into a page");
     host.changed?.();
   };
   host.openArticle = () => {

@@ -35,7 +35,7 @@ void Introduction::start(Lab& lab) {
 void Introduction::follow(Lab& lab, bool moves) {
   if (open_ && !std::exchange(begun_, true) && !moves) {
     lab.session.pause();
-    while (lab.session.state().time < kStill) lab.session.step();
+    while (lab.session.state().time < kStill && !lab.session.stopped()) lab.session.step();
   }
   loop_.follow(lab, moves);
 }

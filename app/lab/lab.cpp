@@ -331,14 +331,24 @@ void Lab::seek(double time) {
   seek_run_ = run_count;
   session.pause();
   if (time < session.state().time) session.go_to(session.timeline().at_time(time));
+  seek_frame_ = kNotBegun;
 }
 
 void Lab::continue_seek(double seconds) {
   if (!seeking() || held()) return;
+  const bool begun = seek_frame_ != kNotBegun;
+  if (begun && (session.playing() || session.state().frame != seek_frame_)) {
+    seek_to_ = 0.0;  // the user took over
+    return;
+  }
+  session.pause();  // "Run it" of a heavy run plays
+  seek_frame_ = session.state().frame;
   const auto until = end_of_slice(seconds);
   const double before = seek_to_ - 0.5 * session.scene().frame;
   while (session.state().time < before && session.verdict().holds() && !session.stopped()) {
+    if (compare.behind(session)) return;
     session.step();
+    seek_frame_ = session.state().frame;
     if (FrameSlices::Clock::now() >= until) return;
   }
   seek_to_ = 0.0;

@@ -68,7 +68,8 @@ struct Lab {
   void run(const RunStart& start);
   /// Whether the run waits for confirmation.
   [[nodiscard]] bool held() const { return !heavy.why.empty() && heavy.run == run_count; }
-  /// Computes the run up to a time, and pauses there. @param time [s]
+  /// Computes the run up to a time, and pauses there, unless the user plays, steps or seeks
+  /// meanwhile. @param time [s]
   void seek(double time);
   /// Whether it is on its way there.
   [[nodiscard]] bool seeking() const { return seek_to_ > 0.0 && seek_run_ == run_count; }
@@ -146,6 +147,8 @@ struct Lab {
   FailedFrame failed_frame_;  // of frozen()
   double seek_to_ = 0.0;      // [s]
   int seek_run_ = 0;          // the run_count that it belongs to
+  static constexpr std::int64_t kNotBegun = -1;
+  std::int64_t seek_frame_ = kNotBegun;  // that it has reached
   std::optional<RemedyTrials> trials_;
   int trials_run_ = 0;  // the run_count that they belong to
 };

@@ -71,8 +71,9 @@ std::span<const TourStep> tour_steps() {
        {.title = "A load that changes while it runs",
         .text =
             "Balls of 10, 100 and 1,000 kg roll over a bridge of light planks, and N follows each "
-            "of them. The orange ghost takes {n} in every frame. No constant number "
-            "below thirteen has a largest joint gap at most 5 % larger. That number is known only "
+            "of them. The orange ghost takes {n} in every frame. Thirteen is the "
+            "smallest constant number whose largest joint gap is at most 5 % larger. That number "
+            "is known only "
             "after the run, and takes more sub-steps in all.",
         .watch = "Watch [the plot of N](substeps) under each ball, and [the joint error](error).",
         .task = "Make the ghost's bridge fail: set seven sub-steps.",

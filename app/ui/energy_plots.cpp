@@ -190,8 +190,9 @@ void drift_plot(const PlotContext& in) {
   section(look, heading, named ? drift_text(look, heading, now, scale, put_in) : "");
   tooltip(look, "Energy drift",
           "The change of the total energy since the start that is not the user's work, on its own "
-          "scale; ideally zero. Friction, impacts and damping remove energy; motors and constant "
-          "torques add it. The percentage is of the energy that the motion exchanges; a scene at "
+          "scale; ideally zero. Friction, impacts and damping remove energy; motors, drives "
+          "and constant torques can add it. The percentage is of the energy that the motion "
+          "exchanges; a scene at "
           "rest exchanges none, and has no percentage." +
               (by_user ? " Your work so far: " + energy_change(put_in) +
                              ", by balls, pulls and changes of the scene. While a body is held, "

@@ -168,7 +168,7 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ImVec2 at(v.x + 16.0F, v.y + v.height - 28.0F);
   const double r = session.state().r;  // of the stiffest body
-  const std::string text = "k/M, 0 to " + short_number(r) + " s⁻²: orange sets N";
+  const std::string text = "k/M, 0 to " + short_number(r) + " s⁻²: orange needs the smallest steps";
   const ImVec2 size = text_size(look.fonts.small, text);
   draw.AddRectFilled({at.x - 8.0F, at.y - 8.0F},
                      {at.x + 2 * kHalf + 16.0F + size.x, at.y - 2.0F + size.y},

@@ -18,7 +18,8 @@ void line() {
 
 // "&at=1.25&camera=...": the time, and where the camera is heading.
 std::string moment_in_link(const Session& session, const OrbitCamera& camera) {
-  return "&at=" + number_text(session.state().time) + "&camera=" + camera.text();
+  const double time = session.state().time;
+  return (time > 0.0 ? "&at=" + number_text(time) : "") + "&camera=" + camera.text();
 }
 
 void items(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {

@@ -26,8 +26,8 @@ constexpr float kFigures = 104.0F;     // N and the error, on the right
 
 void policy_row(const Look& look, Accuracy& accuracy) {
   constexpr std::array<Choice, 2> kTradePolicies{
-      {{"per frame", "Under every load that was run"},
-       {"per sub-step", "Follows a sudden load at once; under the scene's own load only"}}};
+      {{"frame", "Under every load that was run"},
+       {"sub-step", "Follows a sudden load at once; under the scene's own load only"}}};
   choose(look, "Choose N every", kTradePolicies, accuracy.trade_policy,
          "When the number of sub-steps is set");
 }

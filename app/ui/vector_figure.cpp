@@ -215,10 +215,6 @@ void note_text(const ImDrawList& draw, const ImFont* font, ImVec2 at, float widt
   noted.push_back({&draw, font, at, width, clip, color, std::string(text)});
 }
 
-WindowPart part_of_window(const ViewRect& area) {
-  return {area, ImGui::GetCurrentWindow()->RootWindow->ID};
-}
-
 WindowPart figure_window(const Look& paper, const Figure& figure) {
   constexpr double kPixels = 96.0 / 25.4;  // per millimetre, by CSS
   constexpr float kMargin = 4.0F;
@@ -235,7 +231,7 @@ WindowPart figure_window(const Look& paper, const Figure& figure) {
                    ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
   figure.draw(paper);
   const float height = ImGui::GetCursorScreenPos().y + kMargin;
-  const WindowPart part = part_of_window({0.0F, 0.0F, width, height});
+  const WindowPart part{{0.0F, 0.0F, width, height}, ImGui::GetCurrentWindow()->RootWindow->ID};
   ImGui::End();
   ImGui::PopStyleVar();
   visible = display;

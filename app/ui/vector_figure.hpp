@@ -36,9 +36,6 @@ struct FigureNote {
   std::string experiment;  // JSON
 };
 
-/// A part of the current window.
-WindowPart part_of_window(const ViewRect& area);
-
 /// Draws a figure in a window of its own; call between ImGui::NewFrame() and Render().
 /// @return the figure in that window, for svg_figure()
 WindowPart figure_window(const Look& paper, const Figure& figure);

@@ -157,6 +157,27 @@ TEST(Link, TheWindowRunsTheExperimentOfALink) {
   EXPECT_NE(h.app->link().find("load=2&seed=3"), std::string::npos) << h.app->link();
 }
 
+// On the way to a moment that takes long the controls of the run still work.
+TEST(Link, ToAMomentGivesWayToTheUser) {
+  constexpr double kFar = 1e4;  // [s]
+  Headless h;
+  Session& session = h.app->session;
+  const auto taken_over_by = [&](const auto& act) {
+    h.app->reset();
+    h.app->seek(kFar);
+    h.frames(2);
+    EXPECT_TRUE(h.app->seeking());
+    EXPECT_GT(session.state().frame, 0);
+    act();
+    h.frames(2);
+    EXPECT_FALSE(h.app->seeking());
+  };
+  taken_over_by([&] { session.play(); });
+  EXPECT_TRUE(session.playing());
+  taken_over_by([&] { session.go_to(session.timeline().at_time(0.0)); });
+  EXPECT_EQ(session.state().frame, 0);
+}
+
 // The moment is computed again, with what the user did, and shown from the same place.
 TEST(Link, ToAMomentHasItsTimeItsEventsAndItsCamera) {
   Headless h;

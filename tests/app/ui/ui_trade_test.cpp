@@ -77,7 +77,7 @@ TEST(FairTrade, AlphaAndPolicyAreChosenInThePanel) {
   choose_in_row(h, "Alpha", "0.5");
   h.frames(2);
   EXPECT_EQ(h.app->accuracy.trade_alpha, 0.5);
-  choose_in_row(h, "Choose N every", "per sub-step");
+  choose_in_row(h, "Choose N every", "sub-step");
   h.frames(2);
   EXPECT_EQ(h.app->accuracy.trade_policy, Policy::kSubstep);
   EXPECT_LT(bars_of(h).size(), all_loads) << "the scene's own load only";

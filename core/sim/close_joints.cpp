@@ -10,6 +10,7 @@ namespace substep {
 namespace {
 
 constexpr int kMostClosings = 30;        // solves
+constexpr int kMostSwings = 6;           // of them, with the friction bounds refreshed
 constexpr double kNearRounding = 1e-12;  // of gaps, relative to the size of a joint
 constexpr double kOpen = 1e-10;          // gap of a joint that is open, likewise
 constexpr double kOpens = 10.0;          // growth of a gap in a sub-step that is too long
@@ -51,6 +52,8 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
     if (closes(block)) before = std::max(before, largest_gap(block, block.phi));
   }
   const double most = std::max(kOpen, kOpens * before);
+  bool keeps_bounds = std::none_of(system.blocks.begin(), system.blocks.end(),
+                                   [](const Block& b) { return b.is_contact() && b.rows == 3; });
   for (int solves = 1; solves < kMostClosings && solved.status < SolveStatus::kUnsolved; ++solves) {
     predict_motions(sub);
     double largest = 0.0;
@@ -70,8 +73,11 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
     if (largest <= kRounding) return;
     // Near a singular pose it converges slowly; near rounding a small gain is noise.
-    const bool goes_on = largest < (largest > kNearRounding ? 0.9 : 0.5) * last;
+    const bool closes_in = largest < (largest > kNearRounding ? 0.9 : 0.5) * last;
+    const bool goes_on = closes_in || (!keeps_bounds && largest > kNearRounding);
     if (!goes_on && !(largest > last)) return;
+    // In a jam the friction bounds of BPP may swing for ever; with constant ones it converges.
+    keeps_bounds = keeps_bounds || !closes_in || solves >= kMostSwings;
     // A rotation too large for Newton's method opens joints further: the solve before was better.
     const double sign = goes_on ? 1.0 : -1.0;
     if (goes_on) std::swap(gaps, corrected);
@@ -84,7 +90,7 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
       }
     }
     copy(u_star, system.u);
-    const SolveReport again = by.find_velocities_again(system, sub.settings);
+    const SolveReport again = by.find_velocities_again(system, sub.settings, keeps_bounds);
     solved.status = std::max(solved.status, again.status);
     solved.pivots += again.pivots;
     solved.passes += again.passes;

@@ -67,37 +67,38 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
   bounds_.reserve(blocks * kMaxRows);
 }
 
-void Bpp::find_active_set(const System& system, const Settings& settings, SolveReport& report) {
+void Bpp::find_active_set(const System& system, const Settings& settings, int passes,
+                          SolveReport& report) {
   report.status = SolveStatus::kSolved;
   if (!any_bounded_) {
     ldlt_.solve(system);
     over_limits(system, report);
     return;
   }
-  int passes = kPasses;
   int single_pivots = kSinglePivots;
   for (int pass = 0; pass < passes; ++pass) {
     ++report.passes;
     set_friction_bounds(system);
     if (settings.friction_cone == FrictionCone::kCone) soften_sliding(system);
-    const int without_progress = system.contacts_yield ? kWithoutProgress : settings.pivots;
-    bool found = pivot_blocks(system, settings.pivots, without_progress, report);
-    if (!found && report.status != SolveStatus::kOverLimits) {
-      if (system.contacts_yield) {
-        found = approach(system, report);
-        passes = std::min(passes, pass + 2);  // it costs as much as all others
-      } else {
-        found = pivot_singly(system, single_pivots, report);
-      }
-    }
-    if (report.status == SolveStatus::kOverLimits) return;
-    if (!found) {
-      go_on_with_gauss_seidel(system, settings, report);
-      return;
-    }
+    bool approached = false;
+    if (!find_within_bounds(system, settings, single_pivots, approached, report)) return;
+    if (approached) passes = std::min(passes, pass + 2);  // it costs as much as all others
     if (bounds_settled(system)) return;
   }
   report.status = SolveStatus::kUnsettled;
+}
+
+bool Bpp::find_within_bounds(const System& system, const Settings& settings, int& single_pivots,
+                             bool& approached, SolveReport& report) {
+  const int without_progress = system.contacts_yield ? kWithoutProgress : settings.pivots;
+  if (pivot_blocks(system, settings.pivots, without_progress, report)) return true;
+  if (report.status == SolveStatus::kOverLimits) return false;
+  approached = system.contacts_yield;
+  if (approached ? approach(system, report) : pivot_singly(system, single_pivots, report)) {
+    return true;
+  }
+  if (report.status != SolveStatus::kOverLimits) go_on_with_gauss_seidel(system, settings, report);
+  return false;
 }
 
 // Infeasible rows may become more, and sets may come again. The limit on pivots that do not reduce
@@ -190,11 +191,11 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
   if (any_bounded_) start_active_set(system);
   const int refinements = refinements_of(system, settings);
   if (refinements > 0) centre(system);
-  find_active_set(system, settings, report);
+  find_active_set(system, settings, kPasses, report);
   for (int i = 0; i < refinements && report.status < SolveStatus::kUnsolved; ++i) {
     find_impulses(system.blocks);
     centre(system);
-    find_active_set(system, settings, report);
+    find_active_set(system, settings, kPasses, report);
   }
   if (report.status == SolveStatus::kOverLimits) return report;
   if (!any_bounded_ && ldlt_.held()) ldlt_.refine(system);
@@ -203,17 +204,27 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
   return report;
 }
 
-SolveReport Bpp::find_velocities_again(const System& system, const Settings& settings) {
-  if (any_bounded_ || settings.refinements > 0) return find_again(system, settings);
+SolveReport Bpp::find_velocities_again(const System& system, const Settings& settings,
+                                       bool keeps_bounds) {
+  const bool bounds_move = any_bounded_ && (!system.contacts_yield || has_impulses_);
+  if (bounds_move || settings.refinements > 0) return find_again(system, settings);
   SolveReport report;
-  const std::int64_t before = ldlt_.flops();
-  if (ldlt_.held()) {
+  const std::int64_t flops = ldlt_.flops();
+  const int factorisations = ldlt_.factorisations();
+  if (!any_bounded_ && ldlt_.held()) {
     ldlt_.refine(system);
   } else {
     ldlt_.read(system.blocks);
-    ldlt_.solve(system);
+    if (any_bounded_ && keeps_bounds) {
+      int single_pivots = 0;
+      bool approached = false;
+      find_within_bounds(system, settings, single_pivots, approached, report);
+    } else {
+      find_active_set(system, settings, 1, report);
+    }
   }
-  report.flops = ldlt_.flops() - before;
+  report.factorisations = ldlt_.factorisations() - factorisations;
+  report.flops += ldlt_.flops() - flops;
   return report;
 }
 

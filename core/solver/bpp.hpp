@@ -26,15 +26,23 @@ class Bpp final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
   SolveReport find_velocities(const System& system, const Settings& settings) override;
-  /// Without contacts the factor is used again.
-  SolveReport find_velocities_again(const System& system, const Settings& settings) override;
+  /// Where contacts yield, or without any, the factor is used again, and bounds of friction are
+  /// refreshed at most once.
+  SolveReport find_velocities_again(const System& system, const Settings& settings,
+                                    bool keeps_bounds) override;
   std::int64_t find_impulses(std::span<Block> blocks) override;
 
  private:
   /// The same for rows whose tangents are aligned and whose bias contains the centre.
   SolveReport find_again(const System& system, const Settings& settings);
-  /// Starts from the current active set and factor.
-  void find_active_set(const System& system, const Settings& settings, SolveReport& report);
+  /// Starts from the current active set and factor, and refreshes the friction bounds before each
+  /// pass.
+  void find_active_set(const System& system, const Settings& settings, int passes,
+                       SolveReport& report);
+  /// For the bounds as they are. False beyond the limits of all methods, or of the work.
+  /// @param single_pivots left  @param approached out: by the interior-point method
+  bool find_within_bounds(const System& system, const Settings& settings, int& single_pivots,
+                          bool& approached, SolveReport& report);
   void centre(const System& system);
   /// A row's new set.
   struct Move {

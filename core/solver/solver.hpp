@@ -25,7 +25,9 @@ class Solver {
   /// Computes velocities. Joint impulses on which no velocity depends may be left unset.
   virtual SolveReport find_velocities(const System& system, const Settings& settings) = 0;
   /// Solves the last system again, with its u* in System::u and another bias.
-  virtual SolveReport find_velocities_again(const System& system, const Settings& settings) {
+  /// @param keeps_bounds of friction, if the solver has any
+  virtual SolveReport find_velocities_again(const System& system, const Settings& settings,
+                                            bool /*keeps_bounds*/) {
     return find_velocities(system, settings);
   }
   /// Computes those impulses for the blocks of the last solved system. @return operations

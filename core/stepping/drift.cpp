@@ -141,6 +141,7 @@ void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
   constexpr double kYields = 0.1;  // at most this part of the speed by the forces
   constexpr double kRigid = 1e-4;  // but the softness not below this part of what it was
   constexpr double kKept = 0.5;  // of the force: less than all, so that forces in a jam are bounded
+  constexpr double kStops = 0.2;  // of the overlap in a sub-step: the rest is kept by it
   for (Block& block : blocks) {
     if (!block.is_unilateral() || block.soft) continue;
     if (block.awaits) {
@@ -154,9 +155,13 @@ void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
     if (!(block.impulse[0] > 0.0)) continue;  // it has just been struck
     const double yields = block.softness[0] * block.impulse[0];
     const double share = std::clamp(kYields * speeds_of(block, gain) / yields, kRigid, 1.0);
+    // Bodies sink until their overlap keeps the rest of the force; it never pushes them out.
+    const double yielding = share * yields;
+    const double by_overlap = kStops * std::max(-block.phi[0], 0.0) / planned_dt;
+    const double kept = std::min(kKept + by_overlap / yielding, 1.0);
     for (int row = 0; row < block.rows; ++row) {
       block.softness[row] *= share;
-      block.bias[row] -= kKept * block.softness[row] * block.impulse[row];
+      block.bias[row] -= kept * block.softness[row] * block.impulse[row];
     }
   }
 }

@@ -337,6 +337,61 @@ Scene random_ragdoll(int seed) {
   return scene;
 }
 
+/// Trees of boxes and spheres on joints that fall on a floor and on each other, with loose bodies
+/// on top. The bodies of every second heap also touch others of their own tree.
+Scene random_heap(int seed) {
+  Dice dice(seed);
+  SceneBuilder builder("heap");
+  builder.scene().gravity = {0.0, -kGravity, 0.0};
+  builder.body(builder.add_fixed(Plane{}, Vec3::Zero())).friction = dice.number(0.2, 1.0);
+  const int trees = dice.whole(1, 4);
+  for (int tree = 0; tree < trees; ++tree) {
+    struct Limb {
+      int body;
+      Vec3 centre;
+      double half;
+    };
+    std::vector<Limb> limbs;
+    const int count = dice.whole(3, 8);
+    for (int i = 0; i < count; ++i) {
+      const double half = dice.number(0.1, 0.3);
+      const double width = dice.number(0.25, 0.6) * half;
+      const Vec3 along = dice.direction();
+      Vec3 centre{dice.number(-0.4, 0.4), 2.0 + 4.0 * tree, dice.number(-0.4, 0.4)};
+      Vec3 joint = centre;
+      int parent = kWorld;
+      if (i > 0) {
+        const Limb& limb = limbs[index(dice.whole(0, i - 1))];
+        parent = limb.body;
+        joint = limb.centre + limb.half * along;
+        centre = joint + half * along;
+      }
+      const Shape shape =
+          dice.whole(0, 3) == 0 ? Shape{Sphere{0.8 * half}} : Shape{Box{{half, width, width}}};
+      const int body = builder.add_body(shape, dice.scale(0.3, 10.0), centre);
+      builder.body(body).orientation.setFromTwoVectors(Vec3::UnitX(), along);
+      builder.body(body).friction = dice.number(0.2, 1.0);
+      if (seed % 2 == 0) builder.body(body).collision_group = tree + 1;
+      if (i > 0 && dice.whole(0, 1) == 0) {
+        builder.add_ball_joint(body, parent, joint);
+      } else if (i > 0) {
+        builder.add_hinge(body, parent, joint, dice.direction());
+      }
+      limbs.push_back({body, centre, half});
+    }
+  }
+  const int loose = dice.whole(0, 6);
+  for (int i = 0; i < loose; ++i) {
+    const double size = dice.number(0.1, 0.3);
+    const Shape shape =
+        dice.whole(0, 1) == 0 ? Shape{Sphere{size}} : Shape{Box{{size, size, size}}};
+    const Vec3 place{dice.number(-1.0, 1.0), 4.0 * trees + 2.0 + i, dice.number(-1.0, 1.0)};
+    const int body = builder.add_body(shape, dice.scale(0.3, 10.0), place);
+    builder.body(body).friction = dice.number(0.2, 1.0);
+  }
+  return *builder.build();
+}
+
 /// Numbers of the scenes to run.
 std::vector<int> seeds() {
   std::vector<int> of;
@@ -444,6 +499,10 @@ TEST(RandomEnergy, OfPilesNeverRises) {
 
 TEST(RandomEnergy, OfRagdollsNeverRises) {
   EXPECT_LE(faults("ragdoll", random_ragdoll, 5.0, std::nullopt), allowed());
+}
+
+TEST(RandomEnergy, OfHeapsNeverRises) {
+  EXPECT_LE(faults("heap", random_heap, 4.0, std::nullopt), allowed());
 }
 
 }  // namespace

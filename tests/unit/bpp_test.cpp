@@ -112,7 +112,7 @@ TEST(Bpp, RefinementsGoOnInAnotherSolve) {
     bpp.solve(system, settings);
     for (int again = 0; again < 3; ++again) {
       std::copy(problem.u.begin(), problem.u.end(), refined.u.begin());
-      bpp.find_velocities_again(system, settings);
+      bpp.find_velocities_again(system, settings, false);
     }
     for (std::size_t i = 0; i < plain.u.size(); ++i) {
       EXPECT_LT((plain.u[i] - refined.u[i]).norm(), 1e-7) << trial;

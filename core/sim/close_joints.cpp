@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constraints/contact.hpp"
 #include "core/constraints/grab_rows.hpp"
+#include "core/constraints/moved_rows.hpp"
 #include "core/sim/simulator_impl.hpp"
 
 namespace substep {
@@ -35,6 +37,21 @@ double largest_gap(const Block& block, const double* gaps) {
 
 }  // namespace
 
+// Rows are linear: bodies that turn together at omega approach along those of the start, by dt/2
+// omega^2 times their distance, and joints that close at the end want them to. Contacts that touch
+// let them: those in a loop with joints would press against it with the inverse of their softness.
+void Simulator::Impl::let_contacts_turn(const System& system) {
+  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+    Block& block = system.blocks[i];
+    if (!block.is_contact() || block.soft || block.phi[0] > touching(block)) continue;
+    if (block.bias[0] >= kStaysOpen) continue;
+    const double gained = moved_gap(block, motions.of(block.a), motions.of(block.b));
+    const double opens = std::max(0.0, gained / system.dt - normal_speed(block, w));
+    block.bias[0] += opens - openings[i];
+    openings[i] = opens;
+  }
+}
+
 // SHAKE (Ryckaert, Ciccotti and Berendsen 1977): impulses along the rows at the start of the
 // sub-step, such that joints hold at its end,
 //   phi(q + dt u+) = 0,   u+ = u* + Mt^-1 J^T impulse.
@@ -52,6 +69,8 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
     if (closes(block)) before = std::max(before, largest_gap(block, block.phi));
   }
   const double most = std::max(kOpen, kOpens * before);
+  const bool lets_turn = contact && sweeps_motion(sub) && &by == solver.get();
+  if (lets_turn) openings.assign(system.blocks.size(), 0.0);
   bool keeps_bounds = std::none_of(system.blocks.begin(), system.blocks.end(),
                                    [](const Block& b) { return b.is_contact() && b.rows == 3; });
   for (int solves = 1; solves < kMostClosings && solved.status < SolveStatus::kUnsolved; ++solves) {
@@ -89,6 +108,7 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
         block.bias[row] += sign * corrected[i].of[row] / sub.dt;
       }
     }
+    if (lets_turn) let_contacts_turn(system);
     copy(u_star, system.u);
     const SolveReport again = by.find_velocities_again(system, sub.settings, keeps_bounds);
     solved.status = std::max(solved.status, again.status);

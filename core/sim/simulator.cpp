@@ -25,7 +25,8 @@ FrameReport Simulator::Impl::advance(Share share) {
     advance_poses(sub, report);
     spent += static_cast<double>(report.work.flops - before) + work_beside_solver(sub);
     schedule.advance(bound.r, watch_substep(sub));  // re-evaluates N with policy substep
-    if (!schedule.running() && schedule.exceeded()) begin_again(report);  // with a larger N
+    // With a larger N. What follows joints that did not close means nothing.
+    if ((!schedule.running() || joints_open) && schedule.exceeded()) begin_again(report);
   }
   return end(wall, share.whole());
 }

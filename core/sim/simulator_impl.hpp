@@ -107,6 +107,7 @@ struct Simulator::Impl {
   /// Repeats a solve until joints hold at the end. @param system its u* is u_star, by: its solver
   void close_joints(const Substep& sub, const System& system, Solver& by,
                     SolveReport& solved);  // close_joints.cpp
+  void let_contacts_turn(const System& system);
   // impacts.cpp
   bool propagate_impacts(Substep& sub, FrameReport& report);
   bool solve_impacts(Substep& sub, std::span<Block> rows, std::span<Vec6> u,
@@ -163,6 +164,8 @@ struct Simulator::Impl {
   /// The potential energy that the shift adds [J].
   [[nodiscard]] double lift_by_shift(const Substep& sub) const;
   bool parts(const Block& block) const;  // true if an overlap is parted
+  double parting_speed(const Substep& sub, const Block& row) const;
+  double fastest_shift(const Substep& sub) const;
   /// True if a contact stops an approach that the forces of the sub-step do not explain: a body
   /// reaches the surface in one sub-step and comes to rest in the next.
   bool ends_impact(const Substep& sub, const Block& block) const;
@@ -261,6 +264,7 @@ struct Simulator::Impl {
   Motions motions;                      // of the sub-step, likewise
   std::vector<RowGaps> gaps;            // likewise, per block
   std::vector<RowGaps> corrected;       // by the last of them
+  std::vector<double> openings;         // per block: of contacts by turning, likewise [m/s]
   bool joints_open = false;             // the sub-step is too long for them to close
 
   // With contacts found along the motion.

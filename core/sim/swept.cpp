@@ -26,6 +26,7 @@ constexpr int kMostShifts = 4;  // for shifts
 // Of shapes that overlap at the start.
 constexpr double kFastestParting = 1.0;  // half widths of the narrower shape per second
 constexpr double kPartRate = 0.2;        // of the overlap in a sub-step
+constexpr double kFastestShift = 1.0;    // of a body: of its radius, or in radians, per second
 
 }  // namespace
 
@@ -190,6 +191,24 @@ bool Simulator::Impl::parts(const Block& block) const {
   return block.is_unilateral() && !block.soft && block.phi[0] < -touching(block);
 }
 
+/// At which the shift parts an overlap [m/s] or closes a limit [rad/s or m/s].
+double Simulator::Impl::parting_speed(const Substep& sub, const Block& row) const {
+  if (!row.is_unilateral() || row.soft || !(row.phi[0] < 0.0)) return 0.0;
+  return std::min(-kPartRate * row.phi[0] / sub.dt, kFastestParting * width_of(row));
+}
+
+/// Of any body, in its radius per second, or radians per second. Overlaps next to a joint would
+/// turn bodies fast to part slowly.
+double Simulator::Impl::fastest_shift(const Substep& sub) const {
+  double fastest = 0.0;
+  for (const int body : sub.part->moving) {
+    const Vec6& by = shift[index(body)];
+    fastest = std::max({fastest, by.tail<3>().norm(),
+                        by.head<3>().norm() / radius_around(scene->bodies[index(body)].shape)});
+  }
+  return fastest;
+}
+
 bool Simulator::Impl::ends_impact(const Substep& sub, const Block& block) const {
   if (!sweeps_motion(sub) || !(block.impulse[0] > 0.0)) return false;
   return -normal_speed(block, sub.u_before) > speed_by_forces(sub, block);
@@ -216,8 +235,7 @@ bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
     std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
     const double speed = normal_speed(block, w) - normal_speed(block, shift);
     block.bias[0] = speed + (std::max(row.phi[0], 0.0) + row.curved) / sub.dt;
-    if (!any_parts || row.soft || !(row.phi[0] < 0.0)) continue;
-    block.bias[0] -= std::min(-kPartRate * row.phi[0] / sub.dt, kFastestParting * width_of(row));
+    if (any_parts) block.bias[0] -= parting_speed(sub, row);
   }
   Solver& by = impact_solver();
   System system{parting.all(), sub.inverse_mass,     shift, {}, sub.dt,
@@ -226,6 +244,15 @@ bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
   system.contacts_yield = true;
   copy(shift, u_star);
   SolveReport solved = by.find_velocities(system, sub.settings);
+  const double fastest = any_parts ? fastest_shift(sub) : 0.0;
+  if (fastest > kFastestShift && solved.status < SolveStatus::kUnsolved) {
+    for (std::size_t i = 0; i < parting.size(); ++i) {
+      parting.all()[i].bias[0] += (1.0 - kFastestShift / fastest) * parting_speed(sub, sub.rows[i]);
+    }
+    copy(u_star, shift);
+    count_work(sub, solved, report);
+    solved = by.find_velocities(system, sub.settings);
+  }
   if (drift_law(sub.settings) == Drift::kExact && joints) {
     close_joints(sub, system, by, solved);
   }

@@ -121,8 +121,8 @@ TEST(Armature, SlowsTheRampOfAMotor) {
 // sqrt(k/(I + a)), with an armature of which the rod's moment is a small part: a drive that looked
 // at the bodies alone would be damped as one that is too stiff for the sub-step.
 TEST(Armature, SlowsTheOscillationOfADrive) {
-  constexpr double kStiffness = 4000.0;
-  constexpr double kArmature = 100.0;
+  constexpr double kStiffness = 2.3e5;
+  constexpr double kArmature = 5.8e3;
   SceneBuilder builder = geared(kArmature);
   builder.drive(0, {.target = 0.3, .stiffness = kStiffness});
   builder.scene().gravity.setZero();
@@ -305,6 +305,39 @@ TEST(Armature, OfAnArmGainsNoEnergyByDefault) {
   }
 }
 
+// Light links in a row that pull a heavy one: the torques of the joints turn with the links,
+// against their armatures, which exceed the moments of the links a hundred times.
+TEST(Armature, IsInTheReportedEnergyOfLightLinksUnderTension) {
+  SceneBuilder builder("row");
+  builder.scene().gravity.setZero();
+  int last = kWorld;
+  Vec3 v = Vec3::Zero();  // of the last joint
+  for (int i = 0; i < 6; ++i) {
+    const bool is_last = i == 5;
+    const int link =
+        builder.add_body(Box{{0.2, 0.05, 0.05}}, is_last ? 1000.0 : 1.0, {0.2 + 0.4 * i, 0, 0});
+    builder.body(link).collides = false;
+    builder.add_armature(builder.add_hinge(link, last, {0.4 * i, 0, 0}, Vec3::UnitZ()), 2.0);
+    const double rate = is_last ? -v.y() / 0.2 : i % 2 == 0 ? -3.0 : 3.0;
+    builder.body(link).angular_velocity = {0.0, 0.0, rate};
+    builder.body(link).velocity = v + Vec3(0.0, 0.2 * rate, 0.0);
+    v += Vec3(0.0, 0.4 * rate, 0.0);
+    last = link;
+  }
+  const Scene scene = *builder.build();
+  for (const JointMethod& method : joint_methods()) {
+    Settings settings = method.settings;
+    settings.n = 64;
+    Simulator simulator = simulator_of(scene, settings);
+    const double start = energies_of(scene, simulator.state()).kinetic;
+    for (int i = 0; i < 30; ++i) {
+      ASSERT_EQ(simulator.step().status, StepStatus::kOk);
+      const double kinetic = energies_of(scene, simulator.state()).kinetic;
+      EXPECT_NEAR(kinetic, start, (method.order == 1 ? 0.02 : 2e-3) * start) << method.name;
+    }
+  }
+}
+
 // Free bodies keep their momenta: an armature exerts opposite torques.
 TEST(Armature, OfFreeBodiesKeepsTheirMomenta) {
   SceneBuilder builder("free");
@@ -375,6 +408,51 @@ TEST(Armature, TakesPartInImpacts) {
         EXPECT_NEAR(state.u_synchronised[1][5] - state.u_synchronised[0][5], second, 0.01) << name;
       }
     }
+  }
+}
+
+// Two rods in a line whose hinges both are at their limits: impacts one after the other.
+TEST(Armature, TakesPartInImpactsThatSpread) {
+  constexpr double kRate = 2.0;
+  constexpr double kElastic = 0.6;
+  SceneBuilder builder("two rods");
+  int last = kWorld;
+  for (int i = 0; i < 2; ++i) {
+    const int rod = builder.add_body(Box{{0.5, 0.05, 0.05}}, 1.0 + i, {0.5 + i, 0.0, 0.0});
+    builder.body(rod).collides = false;
+    const int hinge = builder.add_hinge(rod, last, {1.0 * i, 0.0, 0.0}, Vec3::UnitZ());
+    builder.add_armature(hinge, 0.2 + 0.3 * i);
+    builder.limit(hinge, -1.0, 1e-9, kElastic);
+    builder.body(rod).angular_velocity = {0.0, 0.0, kRate};
+    last = rod;
+  }
+  builder.body(0).velocity = {0.0, 0.5 * kRate, 0.0};
+  builder.body(1).velocity = {0.0, 1.5 * kRate, 0.0};
+  builder.scene().gravity.setZero();
+  builder.scene().frame = 1e-3;
+  const Scene scene = *builder.build();
+  const double I_1 = scene.bodies[0].inertia.z();
+  const double I_2 = scene.bodies[1].inertia.z();
+  Eigen::Matrix2d M;
+  M << I_1 + 0.25 + I_2 + 2.0 * 2.25, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.25;
+  M(0, 0) += 0.2;
+  M(1, 1) += 0.5;
+  const Eigen::Matrix2d inverse = M.inverse();
+  Eigen::Vector2d rate(kRate, 0.0);
+  for (int i = 0; rate.maxCoeff() > 1e-6; ++i) {
+    const int at = rate[0] > 1e-6 ? 0 : 1;
+    rate -= (1.0 + kElastic) * rate[at] / inverse(at, at) * inverse.col(at);
+    ASSERT_LT(i, 100);
+  }
+  for (const Detection detection : {Detection::kContinuous, Detection::kSubstep}) {
+    Settings settings = steady_at(8);
+    settings.detection = detection;
+    Simulator simulator = simulator_of(scene, settings);
+    for (int i = 0; i < 2; ++i) ASSERT_EQ(simulator.step().status, StepStatus::kOk);
+    const State& state = simulator.state();
+    const int of = static_cast<int>(detection);
+    EXPECT_NEAR(state.u_synchronised[0][5], rate[0], 0.01) << of;
+    EXPECT_NEAR(state.u_synchronised[1][5] - state.u_synchronised[0][5], rate[1], 0.01) << of;
   }
 }
 

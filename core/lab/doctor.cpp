@@ -29,6 +29,12 @@ const std::string& named_body(const Scene& scene, int body) {
   return scene.bodies[index(body)].name;
 }
 
+/// A step, or none if what resists is rounding [s].
+double known(double step) {
+  constexpr double kLongest = 1e3;
+  return step < kLongest ? step : kNoLimit;
+}
+
 /// A system of a group, with drives as the question has them.
 LinearSystem system_of(const LinearModel& model, const DoctorQuestion& question) {
   LinearSystem system{model.mass(), model.geometric() - model.springs(), {}};
@@ -55,9 +61,9 @@ GroupLimit limit_of(const LinearModel& model, std::size_t group, double time,
   limit.criterion = step_of_criterion(model.r());
   const StepLimit geometric =
       largest_step(LinearSystem{model.mass(), model.geometric() - model.springs(), {}});
-  limit.geometric = geometric.step;
+  limit.geometric = known(geometric.step);
   const StepLimit all = largest_step(system_of(model, question));
-  limit.step = all.step;
+  limit.step = known(all.step);
   const Eigen::VectorXd& mode = all.mode.size() > 0 ? all.mode : geometric.mode;
   if (mode.size() == 0) return limit;
   const double h = all.mode.size() > 0 ? all.step : geometric.step;

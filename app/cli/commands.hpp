@@ -20,6 +20,7 @@ void add_run(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
 void add_cost(CLI::App& app, int& exit_code);
 void add_recommend(CLI::App& app, int& exit_code);
+void add_doctor(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);

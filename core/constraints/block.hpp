@@ -13,7 +13,8 @@ namespace substep {
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// Block::hi of a drive that has all the effort it needs: its row is never at a bound.
+/// Block::hi of a drive that has all the effort it needs, and of an armature: its row is never at a
+/// bound.
 inline constexpr double kAnyEffort = std::numeric_limits<double>::max();
 
 /// Bias of a contact that nothing closes [m/s].
@@ -26,8 +27,9 @@ inline constexpr std::int8_t kUnknownSet = 2;
 /// limited or driven, its index in CoordinateTable.
 enum class BlockKind : std::uint8_t { kFirstJoint, kFirstCoordinate = 128, kContact = 255 };
 
-/// The rows of one joint, of a limit, motor, drive or dry friction of one, or of one contact point,
-/// on at most two moving bodies; array elements beyond `rows` are unspecified. Eq. 3 row by row:
+/// The rows of one joint, of a limit, motor, drive, dry friction or armature of one, or of one
+/// contact point, on at most two moving bodies; array elements beyond `rows` are unspecified. Eq. 3
+/// row by row:
 ///   J u+ + softness * impulse = -bias,   lo <= impulse <= hi.
 /// A static body or the world is -1 and has no columns.
 struct Block {
@@ -92,8 +94,12 @@ struct Block {
   Vec3 v2 = Vec3::Zero();
   Vec3 w = Vec3::Zero();
 
+  // Of a coordinate: its armature [kg or kg m^2].
+  double armature = 0.0;
+
   // For compliant rows, compliance.hpp.
-  // Elastic part of phi; of a drive its coordinate, full turns included [m or rad].
+  // Elastic part of phi; of a drive its coordinate, full turns included [m or rad]; of an armature
+  // the rate of its coordinate before the sub-step [m/s or rad/s].
   double elastic[kMaxRows] = {};
   // Contact or limit: change of the gap in this sub-step beyond dt J u [m or rad].
   double curved = 0.0;
@@ -115,9 +121,9 @@ struct Block {
   [[nodiscard]] bool is_unilateral() const { return is_bounded() && !(hi < kUnbounded); }
   /// True if the bounds may be reached.
   [[nodiscard]] bool binds() const { return is_bounded() && hi != kAnyEffort; }
-  /// The coordinate of a joint as a row: a limit, a motor, a drive or dry friction.
+  /// The coordinate of a joint as a row: a limit, a motor, a drive, dry friction or an armature.
   [[nodiscard]] bool is_coordinate() const { return is_bounded() && !is_contact(); }
-  /// A motor, a drive or dry friction: it pulls and pushes with a bounded effort.
+  /// A motor, a drive, dry friction or an armature: it pulls and pushes.
   [[nodiscard]] bool is_motor() const { return is_bounded() && hi < kUnbounded; }
 };
 

@@ -69,9 +69,10 @@ CoordinateStage::CoordinateStage(const Scene& scene) : scene_(scene) {
     for_each_coordinate([&]<class Rows>(Rows) {
       const auto* own = std::get_if<typename Rows::Owner>(&scene.joints[joint]);
       if (own == nullptr) return;
+      const double armature = scene.effects.armature ? armature_of(scene.joints[joint]) : 0.0;
       const auto add = [&](Acts part, const JointGeometry& geometry) {
         placed_.push_back({id_of(joint, part), static_cast<int>(joint), part,
-                           kind_of_coordinate<Rows>(), geometry, Rows::width(a)});
+                           kind_of_coordinate<Rows>(), geometry, Rows::width(a), armature});
       };
       if (own->limit && scene.effects.limits) {
         add(Acts::kLower, Rows::geometry(*own, *own->limit, false));
@@ -85,6 +86,7 @@ CoordinateStage::CoordinateStage(const Scene& scene) : scene_(scene) {
       if (own->friction && scene.effects.joint_friction) {
         add(Acts::kFriction, Rows::geometry(*own));
       }
+      if (armature > 0.0) add(Acts::kArmature, Rows::geometry(*own));
     });
   }
   first_.push_back(placed_.size());
@@ -139,12 +141,13 @@ Block& CoordinateStage::place(const Placed& placed, const State& state, std::spa
   block.awaits = block.soft = block.was_closed = block.seeded = false;
   block.curved = block.spring_ahead[0] = 0.0;
   block.mu = 0.0;
+  block.armature = placed.armature;
   for_each_coordinate([&]<class Rows>(Rows) {
     if (placed.kind != kind_of_coordinate<Rows>()) return;
     Rows::constants(block);
     Rows::rows(placed.geometry, side(joint.a), side(joint.b), block);
   });
-  if (placed.acts == Acts::kMotor || placed.acts == Acts::kFriction) block.phi[0] = 0.0;
+  if (!placed.is_limit() && placed.acts != Acts::kDrive) block.phi[0] = 0.0;  // it has a speed only
   if (placed.is_limit()) {
     block.lo = 0.0;
     block.hi = kUnbounded;

@@ -11,12 +11,12 @@
 
 namespace substep {
 
-/// Limits, motors, drives and dry friction of joints: one row for each that acts, on a coordinate
-/// of CoordinateTable.
+/// Limits, motors, drives, dry friction and armatures of joints: one row for each that acts, on a
+/// coordinate of CoordinateTable.
 class CoordinateStage {
  public:
   /// The parts of a joint that have rows of their own.
-  enum class Acts : std::uint8_t { kLower, kUpper, kMotor, kDrive, kFriction };
+  enum class Acts : std::uint8_t { kLower, kUpper, kMotor, kDrive, kFriction, kArmature };
 
   /// Those whose effect is enabled.
   explicit CoordinateStage(const Scene& scene);
@@ -24,8 +24,8 @@ class CoordinateStage {
   [[nodiscard]] std::size_t size() const { return placed_.size(); }
   [[nodiscard]] bool has_limits() const { return has_limits_; }
 
-  /// Appends friction, motors, drives, whose phi is the coordinate, and limits that are closed or
-  /// may close.
+  /// Appends friction, armatures, motors, drives, whose phi is the coordinate, and limits that are
+  /// closed or may close.
   /// @param dt the sub-step [s]  @param touching only limits that are closed: sweep() finds others
   void append(const Part& part, const State& state, std::span<const Mat3> R_WB, double dt,
               bool touching, Blocks& blocks);
@@ -55,8 +55,9 @@ class CoordinateStage {
     [[nodiscard]] bool is_limit() const { return acts <= Acts::kUpper; }
     BlockKind kind = BlockKind::kFirstCoordinate;
     JointGeometry geometry;
-    double width = 0.0;   // as width_of()
-    std::size_t row = 0;  // the last block
+    double width = 0.0;     // as width_of()
+    double armature = 0.0;  // of the joint, if the effect is enabled
+    std::size_t row = 0;    // the last block
   };
   Block& place(const Placed& placed, const State& state, std::span<const Mat3> R_WB,
                Block& block) const;
@@ -74,6 +75,10 @@ class CoordinateStage {
 /// True for the row of a drive.
 inline bool is_drive(const Block& row) {
   return row.is_coordinate() && CoordinateStage::acts(row.id) == CoordinateStage::Acts::kDrive;
+}
+/// True for the row of an armature.
+inline bool is_armature(const Block& row) {
+  return row.is_coordinate() && CoordinateStage::acts(row.id) == CoordinateStage::Acts::kArmature;
 }
 /// True for a row of dry friction.
 inline bool is_joint_friction(const Block& row) {

@@ -62,18 +62,20 @@ struct ArticulatedInertia {
     return left;
   }
 
-  /// theta'' of a hinge, alpha = alpha_before + h theta'', which transmits no torque along h.
-  [[nodiscard]] double hinge_acceleration(const Vec3& h, const Vec3& alpha_before,
+  /// theta'' of a hinge, alpha = alpha_before + h theta'', which transmits the torque -armature
+  /// theta'' along h.
+  [[nodiscard]] double hinge_acceleration(const Vec3& h, double armature, const Vec3& alpha_before,
                                           const Vec3& a) const {
-    return -h.dot(torque(alpha_before, a)) / h.dot(A * h);
+    return -h.dot(torque(alpha_before, a)) / (h.dot(A * h) + armature);
   }
   /// This with theta'' eliminated by a hinge, as a function of alpha_before and a.
-  /// @param h its axis, unit
-  [[nodiscard]] ArticulatedInertia behind_hinge(const Vec3& h) const {
+  /// @param h its axis, unit  @param armature of its angle [kg m^2]
+  [[nodiscard]] ArticulatedInertia behind_hinge(const Vec3& h, double armature) const {
     const Vec3 Ah = A * h;
     const Vec3 Bh = B.transpose() * h;
-    const Vec3 per_torque = Ah / h.dot(Ah);
-    const Vec3 per_force = Bh / h.dot(Ah);
+    const double inertia = h.dot(Ah) + armature;
+    const Vec3 per_torque = Ah / inertia;
+    const Vec3 per_force = Bh / inertia;
     ArticulatedInertia left;
     left.A = A - per_torque * Ah.transpose();
     left.B = B - per_torque * Bh.transpose();

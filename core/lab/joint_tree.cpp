@@ -61,8 +61,9 @@ void JointTree::collect_inertias() {
     const Node& node = nodes_[i];
     if (node.parent == kWorld) continue;
     const Motion& m = motion_[i];
-    const ArticulatedInertia left =
-        node.kind == Kind::kHinge ? m.inertia.behind_hinge(m.h) : m.inertia.behind_ball();
+    const ArticulatedInertia left = node.kind == Kind::kHinge
+                                        ? m.inertia.behind_hinge(m.h, node.armature)
+                                        : m.inertia.behind_ball();
     motion_[index(node.parent)].inertia.add(left, m.l, m.alpha_bias, m.a_bias);
   }
 }
@@ -89,7 +90,7 @@ void JointTree::accelerate_outwards(const Vector& y, Vector& dy) {
       dy.segment<3>(node.u) = m.alpha;
     } else {
       const Vec3 before = parent.alpha + m.alpha_bias;
-      const double acceleration = m.inertia.hinge_acceleration(m.h, before, m.a);
+      const double acceleration = m.inertia.hinge_acceleration(m.h, node.armature, before, m.a);
       m.alpha = before + acceleration * m.h;
       const double half_rate = 0.5 * y[node.u];
       dy[node.q] = -half_rate * y[node.q + 1];
@@ -168,6 +169,9 @@ double JointTree::kinetic() const {
     const Motion& m = motion_[i];
     energy += 0.5 * nodes_[i].mass * (m.v + m.omega.cross(m.r)).squaredNorm() +
               0.5 * m.omega.dot(m.I * m.omega);
+    if (nodes_[i].armature == 0.0) continue;
+    const double rate = m.h.dot(m.omega - parent_of(nodes_[i]).omega);
+    energy += 0.5 * nodes_[i].armature * rate * rate;
   }
   return energy;
 }

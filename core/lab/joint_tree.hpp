@@ -21,7 +21,8 @@ namespace substep {
 /// an angle theta is kept as cos(theta/2), sin(theta/2), so that nothing beyond sqrt is needed and
 /// the bits are the same everywhere.
 ///
-/// Accelerations come from the articulated-body algorithm (articulated_inertia.hpp), O(bodies):
+/// Hinges may have armatures. Accelerations come from the articulated-body algorithm
+/// (articulated_inertia.hpp), O(bodies):
 /// positions and velocities outwards, inertias inwards, accelerations outwards.
 class JointTree {
  public:
@@ -73,6 +74,7 @@ class JointTree {
     Vec3 l = Vec3::Zero();        // from the parent's joint to this, in the parent or world [m]
     Vec3 axis = Vec3::UnitZ();    // of a hinge, in the body
     Quat at_start = Quat::Identity();  // of a hinge: orientation in the parent
+    double armature = 0.0;             // of a hinge [kg m^2]
     double compliance = 0.0;           // [m/N]
     double angular_compliance = 0.0;   // [rad/(N m)]
     Eigen::Index q = 0;                // where its positions begin in y

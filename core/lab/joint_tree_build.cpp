@@ -31,7 +31,9 @@ bool has_equal_moments(const Body& body) {
 bool is_out_of_scope(const Scene& scene) {
   if (has_applied_forces(scene.effects, {&Effects::gravity})) return true;
   if (scene.effects.contact || scene.regularisation != 0.0) return true;
-  if (acts_on_coordinates(scene.effects)) return true;
+  Effects beside_armature = scene.effects;
+  beside_armature.armature = false;
+  if (acts_on_coordinates(beside_armature)) return true;
   if (!scene.joints.empty() && !scene.effects.joints) return true;
   // Without the gyroscopic torque the simulated motion is not that of rigid bodies.
   return !scene.effects.gyroscopic &&
@@ -179,6 +181,7 @@ class JointTree::Builder {
     const Vec3 apart =
         turned_at_start(node.body, node.axis).cross(turned_at_start(parent, on_parent));
     node.angular_compliance = hinge.angular_compliance;
+    if (scene_.effects.armature) node.armature = hinge.armature.value_or(0.0);
     const Quat& own = tree_.at_start_[index(node.body)].second;
     node.at_start =
         is_fixed(parent) ? own : Quat(tree_.at_start_[index(parent)].second.conjugate() * own);

@@ -18,7 +18,8 @@ struct StoredForce {
   double rate[kMaxRows] = {};         // of lambda [N/s or N m/s]
   double rate_change[kMaxRows] = {};  // of the rate [N/s^2 or N m/s^2]
   double rate_age = 0.0;              // age of the rate relative to lambda [s]
-  // Per row, under the soft drift law, and of a drive: Block::elastic [m, rad].
+  // Per row, under the soft drift law, and of a drive: Block::elastic [m, rad]. Of an armature: the
+  // rate of its coordinate after the sub-step [m/s, rad/s].
   double elastic[kMaxRows] = {};
   std::int8_t active_set[kMaxRows] = {};  // per bounded row: as Block::active_set
 };

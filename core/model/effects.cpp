@@ -62,6 +62,11 @@ bool needs_joint_friction(const Scene& scene) {
   return std::any_of(scene.joints.begin(), scene.joints.end(), friction_of);
 }
 
+bool needs_armature(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(),
+                     [](const Joint& joint) { return armature_of(joint) > 0.0; });
+}
+
 bool needs_external(const Scene& scene) {
   return any_moving(scene, [](const Body& body) {
     return body.force != Vec3::Zero() || body.torque != Vec3::Zero();

@@ -21,6 +21,7 @@ struct Effects {
   bool motors = false;          // of joints
   bool drives = false;          // of joints
   bool joint_friction = false;  // dry
+  bool armature = false;        // of joints
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };
@@ -37,6 +38,7 @@ bool needs_limits(const Scene& scene);
 bool needs_motors(const Scene& scene);
 bool needs_drives(const Scene& scene);
 bool needs_joint_friction(const Scene& scene);
+bool needs_armature(const Scene& scene);
 
 struct EffectEntry {
   std::string_view name;  // in files
@@ -69,7 +71,10 @@ inline constexpr std::array kEffects{
     EffectEntry{"drives", &Effects::drives, needs_drives,
                 "Drives of joints: springs and dampers towards a target.", &Effects::joints},
     EffectEntry{"joint_friction", &Effects::joint_friction, needs_joint_friction,
-                "Dry friction of hinges and slides.", &Effects::joints}};
+                "Dry friction of hinges and slides.", &Effects::joints},
+    EffectEntry{"armature", &Effects::armature, needs_armature,
+                "Inertia of the coordinates of hinges and slides: geared rotors.",
+                &Effects::joints}};
 
 constexpr bool lists_each_flag() {
   Effects listed;
@@ -82,7 +87,8 @@ static_assert(lists_each_flag(), "one entry for each flag");
 
 /// True if parts of joints act on their angle or travel.
 inline bool acts_on_coordinates(const Effects& effects) {
-  return effects.limits || effects.motors || effects.drives || effects.joint_friction;
+  return effects.limits || effects.motors || effects.drives || effects.joint_friction ||
+         effects.armature;
 }
 
 /// True if an effect can act: it depends on none, or on one that is enabled.

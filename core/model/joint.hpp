@@ -141,6 +141,7 @@ struct HingeJoint : JointBase {
   std::optional<AngularMotor> motor;
   std::optional<AngularDrive> drive;
   std::optional<double> friction;  // dry: largest torque about the axis, > 0 [N m]
+  std::optional<double> armature;  // inertia of the angle, besides that of the bodies [kg m^2]
 
   template <class J, class Field>
   static void own_fields(J& joint, Field&& field) {
@@ -151,6 +152,7 @@ struct HingeJoint : JointBase {
     field("motor", joint.motor);
     field("drive", joint.drive);
     field("friction", joint.friction, kMotorTorqueRange);
+    field("armature", joint.armature, kInertiaRange);
   }
 };
 
@@ -181,6 +183,7 @@ struct PrismaticJoint : OrientedJoint {
   std::optional<LinearMotor> motor;
   std::optional<LinearDrive> drive;
   std::optional<double> friction;  // dry: largest force along the axis, > 0 [N]
+  std::optional<double> armature;  // inertia of the travel, besides that of the bodies [kg]
 
   template <class J, class Field>
   static void own_fields(J& joint, Field&& field) {
@@ -189,6 +192,7 @@ struct PrismaticJoint : OrientedJoint {
     field("motor", joint.motor);
     field("drive", joint.drive);
     field("friction", joint.friction, kMotorForceRange);
+    field("armature", joint.armature, kMassRange);
   }
 };
 

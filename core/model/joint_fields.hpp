@@ -115,6 +115,17 @@ inline std::optional<double> friction_of(const Joint& joint) {
       joint);
 }
 
+/// The armature of a joint's coordinate: a (dx/dt)^2/2 is part of the kinetic energy, as of the
+/// rotor of a geared motor; 0 without one [kg m^2 or kg].
+inline double armature_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) {
+        if constexpr (requires { j.armature; }) return j.armature.value_or(0.0);
+        return 0.0;
+      },
+      joint);
+}
+
 /// The drive of a hinge's angle, or null.
 inline const AngularDrive* angular_drive_of(const Joint& joint) {
   const auto* hinge = std::get_if<HingeJoint>(&joint);

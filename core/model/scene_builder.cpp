@@ -132,6 +132,12 @@ void SceneBuilder::rub(int joint, double effort) {
   if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->friction = effort;
 }
 
+void SceneBuilder::add_armature(int joint, double inertia) {
+  Joint& of = scene_.joints[index(joint)];
+  if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->armature = inertia;
+  if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->armature = inertia;
+}
+
 int SceneBuilder::add_prismatic(int a, int b, const Vec3& point, const Vec3& axis) {
   PrismaticJoint joint;
   place(scene_, a, b, point, joint);

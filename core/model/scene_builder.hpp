@@ -38,6 +38,9 @@ class SceneBuilder {
   void drive(int joint, const Drive& by);
   /// Dry friction of a hinge or a slide. @param effort the largest torque or force [N m or N]
   void rub(int joint, double effort);
+  /// Inertia of the angle of a hinge or the travel of a slide, besides that of the bodies.
+  /// @param inertia [kg m^2 or kg]
+  void add_armature(int joint, double inertia);
   /// A point of a slides along an axis of b, without relative rotation.
   int add_prismatic(int a, int b, const Vec3& point, const Vec3& axis);
   /// A weld at a point of the world: a keeps its position and orientation relative to b.

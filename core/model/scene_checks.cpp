@@ -157,7 +157,8 @@ void check_effects(const Scene& scene, Problems& problems) {
   for (const auto& [effect, name] :
        {std::pair(&Effects::limits, "limits"), std::pair(&Effects::motors, "motors"),
         std::pair(&Effects::drives, "drives"),
-        std::pair(&Effects::joint_friction, "joint_friction")}) {
+        std::pair(&Effects::joint_friction, "joint_friction"),
+        std::pair(&Effects::armature, "armature")}) {
     if (!listed.joints && listed.*effect) {
       missing("joints", '"' + std::string(name) + "\" needs it");
     }
@@ -167,6 +168,7 @@ void check_effects(const Scene& scene, Problems& problems) {
   bool motors = listed.motors;
   bool drives = listed.drives;
   bool joint_friction = listed.joint_friction;
+  bool armature = listed.armature;
   bool restitution = listed.restitution;
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const auto given = [&](const char* part) {
@@ -185,6 +187,9 @@ void check_effects(const Scene& scene, Problems& problems) {
     }
     if (friction_of(scene.joints[i]) && !std::exchange(joint_friction, true)) {
       missing("joint_friction", given("friction"));
+    }
+    if (armature_of(scene.joints[i]) > 0.0 && !std::exchange(armature, true)) {
+      missing("armature", given("armature"));
     }
   }
   for (std::size_t i = 0; i < scene.bodies.size() && !listed.external; ++i) {

@@ -108,6 +108,11 @@ inline Drift drift_law(const Settings& s) {
   return entry_of(s.solver).soft_drift ? Drift::kSoft : Drift::kFull;
 }
 
+/// True if Störmer's method sets up rows for the poses at the end of the sub-step.
+inline bool aims_at_poses(const Settings& s) {
+  return follows_accelerations(s) && drift_law(s) == Drift::kFull;
+}
+
 /// True if the solver or the mode of these settings reads the given setting.
 constexpr bool reads(const Settings& s, std::string_view setting) {
   const auto lists = [setting](const SettingNames& names) {

@@ -57,6 +57,9 @@ void Simulator::Impl::keep_forces_at_rest() {
                                      : static_cast<std::size_t>(force.id);
     if (joint < scene->joints.size() && sleeps(base(scene->joints[joint]).a)) {
       forces.push_back(force);
+      const bool turns =
+          of_coordinate && CoordinateStage::acts(force.id) == CoordinateStage::Acts::kArmature;
+      if (turns) forces.back().elastic[0] = 0.0;  // it wakes at rest
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "core/constraints/grab_rows.hpp"
 #include "core/sim/lower_restitution.hpp"
 #include "core/sim/simulator_impl.hpp"
+#include "core/stepping/armature.hpp"
 #include "core/stepping/compliance.hpp"
 #include "core/stepping/drift.hpp"
 
@@ -206,6 +207,9 @@ bool Simulator::Impl::set_hits(const Substep& sub, std::span<const Vec6> u, doub
   bool any = false;
   for (Block& block : rows) {
     reset_row(block);
+    if (is_armature(block)) {
+      set_armature_at_rate(normal_speed(block, u), scene->regularisation, block);
+    }
     if (!block.is_unilateral()) {
       set_joint(sub.inverse_mass, u, block);
       continue;

@@ -6,6 +6,7 @@
 #include "core/constraints/grab_rows.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/solver/cost_model.hpp"
+#include "core/stepping/armature.hpp"
 #include "core/stepping/compliance.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/drive.hpp"
@@ -94,6 +95,7 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
   }
   sub.integrator->begin(sub, state);
   copy(state.u, sub.u_before);
+  if (!sub.u_unstruck.empty()) copy(state.u, sub.u_unstruck);
   apply_forces(sub, sub.impulse_time, state.u);
   if (changes_mass(sub.settings.mode)) {
     effective_mass(*scene, moved, sub.settings, sub.inertia_inverse, sub.R_WB, sub.u_start, sub.dt,
@@ -196,11 +198,13 @@ void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
 
 void Simulator::Impl::drive_motors(const Substep& sub, std::span<const Vec6> u) const {
   const Effects& effects = scene->effects;
-  if (!effects.motors && !effects.drives && !effects.joint_friction) return;
+  if (!effects.motors && !effects.drives && !effects.joint_friction && !effects.armature) return;
   for (Block& block : sub.rows) {
     if (!block.is_motor()) continue;
     if (is_drive(block)) {
       set_drive(sub, state, coordinates->drive(block), u, block);
+    } else if (is_armature(block)) {
+      set_armature(sub, u, block);
     } else if (is_joint_friction(block)) {
       set_joint_friction(sub, coordinates->friction(block), impulse_time_of(sub, block), block);
     } else {
@@ -213,6 +217,8 @@ void Simulator::Impl::set_reaction(const Substep& sub, Block& row) const {
   const double time = impulse_time_of(sub, row) - 0.5 * sub.dt;
   if (is_drive(row)) {
     set_drive_reaction(sub, coordinates->drive(row), time, row);
+  } else if (is_armature(row)) {
+    set_armature_at_rate(rate_before(sub, row), scene->regularisation, row);
   } else if (is_joint_friction(row)) {
     set_joint_friction(sub, coordinates->friction(row), time, row);
   } else {

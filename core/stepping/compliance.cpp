@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/constraints/grab_rows.hpp"
+#include "core/stepping/armature.hpp"
 #include "core/stepping/drift.hpp"
 
 namespace substep {
@@ -76,8 +77,8 @@ void stiffen_contacts(const Substep& sub, double share, std::span<Block> rows) {
     if (!block.is_unilateral()) continue;
     for (int row = 0; row < block.rows; ++row) {
       if (block.C[row] >= sub.scene->contact.soft_compliance) continue;
-      block.softness[row] = (block.is_contact() ? share : kLimit * share) *
-                                mobility_of(block, row, sub.inverse_mass) +
+      block.softness[row] = (block.is_contact() ? share * mobility_of(block, row, sub.inverse_mass)
+                                                : kLimit * share * mobility_along(sub, block)) +
                             sub.scene->regularisation;
     }
   }
@@ -104,8 +105,7 @@ double resolved_weight(const Settings& settings) {
     }
   }
   if (settings.integrator == Integrator::kEuler) return 1.0;
-  const bool stormer = follows_accelerations(settings) && drift_law(settings) == Drift::kFull;
-  return stormer ? 0.0 : kNumerov;
+  return aims_at_poses(settings) ? 0.0 : kNumerov;
 }
 
 SpringWeights spring_weights(double resolved, double kappa) {

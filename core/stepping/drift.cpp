@@ -34,15 +34,14 @@ namespace {
 
 const Vec6 kRest = Vec6::Zero();
 
-/// phi'' of a joint's rows at constant velocities [m/s^2, 1/s^2].
+}  // namespace
+
 void curvature_of(const Block& block, std::span<const Vec6> u, double* curvature) {
   const auto velocity = [&](int body) -> const Vec6& { return body < 0 ? kRest : u[index(body)]; };
   with_joint_rows(block.kind, [&](auto joint) {
     joint.curvature(block, velocity(block.a), velocity(block.b), curvature);
   });
 }
-
-}  // namespace
 
 void add_curvature_bias(std::span<Block> blocks, std::span<const Vec6> u, double dt) {
   double curvature[kMaxRows] = {};
@@ -106,7 +105,8 @@ Vec6 applied_acceleration(const Substep& sub, std::size_t body) {
 // Of a body that rests on a limit. A force m g turns a body of the radius of gyration k about the
 // axis, which hangs on an arm d, by
 //   g d/(k^2 + d^2) <= g/(2 k).
-// In a linkage whose bodies rotate, angular accelerations are of the size of omega^2.
+// In a linkage whose bodies rotate, angular accelerations are of the size of omega^2. An armature
+// adds to the mass along a travel and to the moment about an axis.
 double largest_acceleration(const Substep& sub, const Block& row, bool of_a) {
   const std::size_t at = index(of_a ? row.a : row.b);
   const Body& body = sub.scene->bodies[at];
@@ -117,10 +117,13 @@ double largest_acceleration(const Substep& sub, const Block& row, bool of_a) {
     motors.torque += sub.drives_on[at].torque;
   }
   const double turning = sub.u_before[at].tail<3>().squaredNorm();
+  if (!is_angle(row)) {
+    return applied.head<3>().norm() + motors.force / (body.mass + row.armature) +
+           turning * (of_a ? row.r_a : row.r_b).norm();
+  }
   const double pushed = applied.head<3>().norm() + motors.force / body.mass;
-  if (!is_angle(row)) return pushed + turning * (of_a ? row.r_a : row.r_b).norm();
   const Vec3 axis = sub.R_WB[at].transpose() * row.axis;
-  const double moment = axis.dot(body.inertia.cwiseProduct(axis));
+  const double moment = axis.dot(body.inertia.cwiseProduct(axis)) + row.armature;
   return pushed / (2.0 * std::sqrt(moment / body.mass)) + motors.torque / moment +
          std::abs(applied.tail<3>().dot(row.axis)) + turning;
 }

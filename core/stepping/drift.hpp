@@ -23,6 +23,10 @@ void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt, d
 /// Relative rate of the drift correction under either law [1/s].
 double drift_rate(Drift law, double tau, double dt);
 
+/// phi'' of the rows of a joint or a coordinate at constant velocities.
+/// @param u per body [m/s, rad/s]  @param curvature out, kMaxRows [m/s^2, 1/s^2]
+void curvature_of(const Block& block, std::span<const Vec6> u, double* curvature);
+
 /// Second-order correction. A sub-step is solved with the gradients at its start, but joint rows
 /// are curved,
 ///   phi(dt) = phi + dt J u + dt^2/2 phi'' + ...,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/stepping/armature.hpp"
 #include "core/stepping/compliance.hpp"
 
 namespace substep {
@@ -58,7 +59,7 @@ void set_drive(const Substep& sub, const State& state, const Drive& drive, std::
   DriveMeans means{.ahead = sub.dt};
   if (averages_springs(sub.settings)) {
     const double dt_previous = dt_previous_of(state, row);
-    const double per_effort = time * mobility_of(row, 0, sub.inverse_mass);
+    const double per_effort = time * mobility_along(sub, row);
     double speed[kMaxRows];
     row_speeds(row, u, speed);
     const SpringWeights w = solved_weights(sub.settings, sub.dt * per_effort * drive.stiffness);
@@ -83,7 +84,7 @@ double effort_at(const Drive& drive, double coordinate, double speed) {
 
 void set_joint_friction(const Substep& sub, double effort, double time, Block& row) {
   constexpr double kShares = 1e-9;
-  const double softness = kShares * mobility_of(row, 0, sub.inverse_mass);
+  const double softness = kShares * mobility_along(sub, row);
   row.hi = effort * time;
   row.lo = -row.hi;
   row.softness[0] = sub.scene->regularisation + softness;

@@ -1,5 +1,8 @@
 #include "core/stepping/euler.hpp"
 
+#include <Eigen/LU>
+
+#include "core/constraints/coordinate_stage.hpp"
 #include "core/constraints/joint_rows.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "core/math/gyroscopic.hpp"
@@ -130,6 +133,38 @@ void Euler::turn_joint_forces(const Substep& sub, const State& state) {
     with_joint_rows(block.kind, [&](auto joint) {
       joint.push_change(block, motion_of(block.a), motion_of(block.b), block.impulse, on_a, on_b);
     });
+  }
+  if (sub.scene->effects.armature) resist_by_armatures(sub);
+}
+
+// Armatures resist what turns the forces: of a push b, A (M + A)^-1 b is theirs, with A = a J^T J
+// of a body's own rows. Without it the speed of a light body with a large armature would be far
+// off.
+void Euler::resist_by_armatures(const Substep& sub) {
+  const auto resists = [](const Mat3& M, const Mat3& A, auto push) {
+    push -= A * Vec3((M + A).inverse() * push);
+  };
+  resisting_.assign(bent_push_.size(), {});
+  for (const Block& row : sub.rows) {
+    if (!row.is_coordinate() || !is_armature(row)) continue;
+    for (const bool of_a : {true, false}) {
+      const int body = of_a ? row.a : row.b;
+      if (body < 0) continue;
+      const Vec6 J = gradient(row, 0, of_a);
+      Resisting& sum = resisting_[index(body)];
+      sum.any = true;
+      sum.linear += row.armature * J.head<3>() * J.head<3>().transpose();
+      if (row.position_rows == 0) {
+        sum.angular += row.armature * J.tail<3>() * J.tail<3>().transpose();
+      }
+    }
+  }
+  for (std::size_t i = 0; i < resisting_.size(); ++i) {
+    if (!resisting_[i].any) continue;
+    const Body& body = sub.scene->bodies[i];
+    const Mat3 I = sub.R_WB[i] * body.inertia.asDiagonal() * sub.R_WB[i].transpose();
+    resists(body.mass * Mat3::Identity(), resisting_[i].linear, bent_push_[i].head<3>());
+    resists(I, resisting_[i].angular, bent_push_[i].tail<3>());
   }
 }
 

@@ -43,12 +43,19 @@ class Euler : public TimeIntegrator {
   [[nodiscard]] bool strikes_spin(const Substep& sub, std::size_t body) const;
   void find_hit(const Substep& sub);
   void turn_joint_forces(const Substep& sub, const State& state);
+  void resist_by_armatures(const Substep& sub);
   void synchronise_spin(const Substep& sub, std::size_t body, double ahead, const Vec3& bent,
                         State& state) const;
 
   std::optional<GyroscopicStage> gyroscopic_;  // if the scene has the effect
   std::vector<std::uint8_t> hit_;              // per body: an impact of this sub-step reached it
   std::vector<Vec6> bent_push_;  // change of the joints' impulses as bodies move [N s, N m s]
+  struct Resisting {             // armatures of a body's joints, on its motion [kg, kg m^2]
+    Mat3 linear = Mat3::Zero();
+    Mat3 angular = Mat3::Zero();
+    bool any = false;
+  };
+  std::vector<Resisting> resisting_;
 };
 
 }  // namespace substep

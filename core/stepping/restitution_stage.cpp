@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "core/constraints/contact.hpp"
+#include "core/constraints/coordinate_stage.hpp"
+#include "core/stepping/armature.hpp"
 #include "core/stepping/drift.hpp"
 
 namespace substep {
@@ -122,7 +124,9 @@ bool RestitutionStage::set_impacts(const Substep& sub, std::span<const Vec6> u, 
     std::fill(std::begin(block.bias), std::end(block.bias), 0.0);
     std::fill(std::begin(block.impulse), std::end(block.impulse), 0.0);
     if (!block.is_unilateral()) {
-      if (block.is_motor()) {
+      if (is_armature(block)) {
+        set_armature_at_rate(normal_speed(block, u), scene_.regularisation, block);
+      } else if (block.is_motor()) {
         block.lo = block.hi = 0.0;
       } else if (!sub.gain.empty()) {
         keep_speeds(block, u);

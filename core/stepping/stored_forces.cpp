@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/constraints/coordinate_stage.hpp"
 #include "core/constraints/grab_rows.hpp"
+#include "core/stepping/armature.hpp"
 #include "core/stepping/compliance.hpp"
 #include "core/stepping/time_integrator.hpp"
 
@@ -86,7 +88,9 @@ void store_forces(const Substep& sub, const State& state, std::vector<StoredForc
       force.active_set[row] = block.active_set[row];
     }
     sub.integrator->store(sub, state, block, force);
-    if (block.is_motor()) force.elastic[0] = block.elastic[0];
+    if (block.is_motor()) {
+      force.elastic[0] = is_armature(block) ? rate_after(sub, block) : block.elastic[0];
+    }
     if (!soft || is_grab(block)) continue;
     if (block.is_unilateral()) {
       force.elastic[0] = -block.C[0] * block.lambda[0];

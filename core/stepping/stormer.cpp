@@ -200,8 +200,8 @@ void Stormer::find_first_changes(const Substep& sub, State& state) const {
 }
 
 std::int64_t Stormer::aim(const Substep& sub, State& state) {
-  const bool aims = drift_law(sub.settings) == Drift::kFull;
-  const std::int64_t flops = aims ? aim_at_poses(sub, state) : aim_rolling(sub, motions_);
+  const std::int64_t flops =
+      aims_at_poses(sub.settings) ? aim_at_poses(sub, state) : aim_rolling(sub, motions_);
   for (const Block& block : sub.rows) {
     if (gives_forces(sub, block)) apply_impulse(block, block.given, sub.inverse_mass, state.u);
   }
@@ -231,9 +231,10 @@ std::int64_t Stormer::aim_at_poses(const Substep& sub, State& state) {
   std::int64_t flops = aim_flops(sub.rows, std::ssize(sub.part->moving));
   for (Block& block : sub.rows) {
     double gained[kMaxRows];
-    if (!block.is_bounded() || is_drive(block)) {
+    const bool is_mean = is_drive(block) || is_armature(block);
+    if (!block.is_bounded() || is_mean) {
       moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
-      if (is_drive(block)) flops += move_flops(block, 1);
+      if (is_mean) flops += move_flops(block, 1);
     } else if (aims_rolling(sub.settings) && sticks(block)) {
       moved_sliding(block, motions_.of(block.a), motions_.of(block.b), gained + 1);
       flops += move_flops(block, 2);
@@ -255,8 +256,8 @@ std::int64_t Stormer::aim_at_poses(const Substep& sub, State& state) {
     }
     for (int row = 0; row < block.rows; ++row) {
       if (block.C[row] > 0.0 && !(block.spring_ahead[row] > 0.0)) continue;  // its force is given
-      // The bias of a spring or a drive belongs to a mean over the sub-step.
-      const double aimed = block.C[row] > 0.0 || is_drive(block)
+      // The bias of a spring, a drive or an armature belongs to a mean over the sub-step.
+      const double aimed = block.C[row] > 0.0 || is_mean
                                ? per_g * (block.bias[row] + gained[row] / sub.dt)
                                : per_g / sub.dt * (share * block.phi[row] + gained[row]);
       block.bias[row] = aimed - speed[row];

@@ -43,6 +43,7 @@ Substep::Substep(const Scene& of)
   R_WB.resize(n);
   u_start.resize(n);
   if (of.effects.joints && of.effects.drives) drives_on.resize(n);
+  if (of.effects.joints && of.effects.armature) u_unstruck.resize(n);
   impulse_time.resize(n);
   u_before.resize(n);
   inverse_mass.resize(n);

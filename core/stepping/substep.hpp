@@ -54,6 +54,7 @@ struct Substep {
   std::vector<MotorsOnBody> drives_on;    // forces and torques of drives; empty without any
   std::vector<double> impulse_time;       // duration of applied forces [s]
   std::vector<Vec6> u_before;             // after the gyroscopic torque, before forces and rows
+  std::vector<Vec6> u_unstruck;           // u_before, without impacts; empty without armatures
   std::vector<InverseMass> inverse_mass;  // Mt^-1
   std::span<const std::uint8_t> struck;   // per block, if impacts were propagated; else empty
   // With contacts found along the motion (sim/swept.cpp), else empty; per body [m/s, rad/s].

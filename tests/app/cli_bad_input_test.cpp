@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
         BadCall{"UnknownCommand", "chek",
                 "no command is called chek (did you mean \"check\"?)\n"
-                "Commands: run sweep cost recommend merge reproduce check exam hash scenes "
+                "Commands: run sweep cost recommend doctor merge reproduce check exam hash scenes "
                 "generate map\n"},
         BadCall{"JobsZero", "sweep pendulum --jobs 0",
                 "--jobs: must be a whole number from 1 to 1024, not 0"},

@@ -495,6 +495,23 @@ TEST(CommandLine, TakesScenesFromTheFolderInTheEnvironment) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
+TEST(CommandLine, TheDoctorSaysByItsExitCodeWhetherAStepHolds) {
+  const Outcome holds = substep("doctor pendulum --seconds 0.5");
+  EXPECT_EQ(holds.exit_code, 0) << holds.err;
+  EXPECT_NE(holds.out.find("pendulum: a step of 16.7 ms in substep: holds"), std::string::npos)
+      << holds.out;
+  EXPECT_NE(holds.out.find("2/w_max, 0.583 s"), std::string::npos) << holds.out;
+  EXPECT_EQ(substep("doctor swinging_box --no-runs --step 0.0045").exit_code, 1);
+  const Outcome fails = substep("doctor swinging_box --seconds 0.5 --json -");
+  EXPECT_EQ(fails.exit_code, 2) << fails.err;
+  const Json json = Json::parse(fails.out);
+  EXPECT_EQ(json["verdict"], "fails");
+  EXPECT_NEAR(json["start"][0]["geometric_step"], 5.37e-3, 1e-5);
+  EXPECT_FALSE(json["remedies"].empty());
+  EXPECT_EQ(substep("doctor no_such_scene").exit_code, 3);
+  EXPECT_EQ(substep("doctor pendulum --engine none").exit_code, 2);
+}
+
 TEST(CommandLine, HelpHasExamples) {
   for (const char* command : {"", "run", "check", "hash", "generate"}) {
     const Outcome run = substep(std::string(command) + " --help");

@@ -82,6 +82,7 @@ TEST(LimitsMotorsAndDrives, AllocateNothingAfterTheFirstFrame) {
     builder.limit(hinge, -0.4, 0.6, 0.5);
     if (i == 2) builder.drive(hinge, 2.0, 1.5);
     if (i > 0) builder.rub(hinge, 0.1);
+    builder.add_armature(hinge, 0.05);
     if (i == 1) {
       builder.drive(hinge, {.target = 1.0, .stiffness = 20.0, .damping = 1.0, .effort = 5.0});
     }

@@ -136,6 +136,7 @@ inline void join(Scene& scene, int a, int b, const Vec3& point) {
     hinge.drive = AngularDrive{drive, turned(a, v1), turned(b, v1)};
   }
   if (one_in(4)) hinge.friction = magnitude(1e-6, 1e6);
+  if (one_in(4)) hinge.armature = magnitude(1e-12, 1e6);
   scene.joints.emplace_back(hinge);
 }
 
@@ -247,6 +248,7 @@ inline Scene any_scene() {
   effects.motors = needs_motors(scene);
   effects.drives = needs_drives(scene);
   effects.joint_friction = needs_joint_friction(scene);
+  effects.armature = needs_armature(scene);
   const bool limits_rebound =
       std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
         const Limit* limit = limit_of(joint);

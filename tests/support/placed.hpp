@@ -79,6 +79,7 @@ inline Scene in_units(Scene scene, double mass, double length, double time = 1.0
               of.motor->velocity *= slides ? speed : 1.0 / time;
               of.motor->effort *= mass * speed / time * (slides ? 1.0 : length);
             }
+            if (of.armature) *of.armature *= mass * (slides ? 1.0 : length * length);
             if (of.friction) *of.friction *= mass * speed / time * (slides ? 1.0 : length);
             if (of.drive) {
               const double effort = mass * speed / time * (slides ? 1.0 : length);

@@ -270,7 +270,7 @@ TEST(SlideTravel, GradientAndStiffnessMatchFiniteDifferences) {
 TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   Scene scene;
   scene.effects.joints = scene.effects.limits = scene.effects.motors = true;
-  scene.effects.drives = scene.effects.joint_friction = true;
+  scene.effects.drives = scene.effects.joint_friction = scene.effects.armature = true;
   scene.bodies = {moving(Sphere{0.1}), moving(Sphere{0.1})};
   HingeJoint hinge;
   hinge.b = 1;
@@ -278,18 +278,21 @@ TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   hinge.motor = AngularMotor{{1.0, 2.0}};
   hinge.drive = AngularDrive{{.stiffness = 3.0}};
   hinge.friction = 4.0;
+  hinge.armature = 5.0;
   scene.joints = {BallJoint{}, hinge};
   CoordinateStage stage(scene);
-  EXPECT_EQ(stage.size(), 5U);
+  EXPECT_EQ(stage.size(), 6U);
   Blocks blocks;
   const State state = initial_state(scene);
   stage.append(whole(scene), state, rotations(state), 0.01, true, blocks);
-  ASSERT_EQ(blocks.size(), 4U) << "the upper bound, which is closed, motor, drive and friction";
+  ASSERT_EQ(blocks.size(), 5U)
+      << "the upper bound, which is closed, motor, drive, friction and armature";
   for (const Block& block : blocks.all()) {
     EXPECT_TRUE(CoordinateStage::is_id(block.id));
     EXPECT_FALSE(is_contact_id(block.id));
     EXPECT_EQ(CoordinateStage::joint_of(block.id), 1);
     EXPECT_TRUE(block.is_bounded());
+    EXPECT_EQ(block.armature, 5.0);
   }
   EXPECT_TRUE(blocks.all()[0].is_unilateral());
   EXPECT_TRUE(blocks.all()[1].is_motor());
@@ -299,9 +302,10 @@ TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   EXPECT_EQ(stage.drive(blocks.all()[2]).stiffness, 3.0);
   EXPECT_TRUE(is_joint_friction(blocks.all()[3]));
   EXPECT_EQ(stage.friction(blocks.all()[3]), 4.0);
+  EXPECT_TRUE(is_armature(blocks.all()[4]));
   blocks.clear();
   stage.append(whole(scene), state, rotations(state), 0.01, false, blocks);
-  EXPECT_EQ(blocks.size(), 4U) << "the lower bound is far";
+  EXPECT_EQ(blocks.size(), 5U) << "the lower bound is far";
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "core/lab/alpha_search.hpp"
 #include "core/lab/axes.hpp"
 #include "core/lab/closed_form.hpp"
+#include "core/lab/doctor.hpp"
 #include "core/lab/effect_cost.hpp"
 #include "core/lab/fair_trade.hpp"
 #include "core/lab/forecast.hpp"
@@ -212,6 +213,14 @@ const std::vector<Call>& calls() {
       {"closed_form", [](const Scene& s) { EXPECT_FALSE(closed_form(s)); }},
       {"PlanarChain", [](const Scene& s) { EXPECT_FALSE(PlanarChain::of(s)); }},
       {"JointTree", [](const Scene& s) { EXPECT_FALSE(JointTree::of(s)); }},
+      {"LinearModel",
+       [](const Scene& s) { EXPECT_TRUE(LinearModel::of(s, initial_state(s)).empty()); }},
+      {"static_findings",
+       [](const Scene& s) { EXPECT_TRUE(static_findings(s, initial_state(s)).empty()); }},
+      {"diagnose",
+       [](const Scene& s) {
+         EXPECT_EQ(diagnose(pointer_to(s), {}).verdict, Diagnosis::Verdict::kNotUnderstood);
+       }},
       {"start_of", [](const Scene& s) { EXPECT_EQ(start_of(s, 3.0, 7).name, s.name); }},
       {"mass_ratio", [](const Scene& s) { mass_ratio(s); }},
       {"frames_of",

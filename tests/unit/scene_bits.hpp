@@ -47,7 +47,7 @@ class SceneBitsWriter {
   }
   void add(const Effects& e) {
     for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution,
-                         e.external, e.limits, e.motors, e.drives, e.joint_friction})
+                         e.external, e.limits, e.motors, e.drives, e.joint_friction, e.armature})
       add(b);
   }
   void add(const Body& b) {
@@ -94,6 +94,7 @@ class SceneBitsWriter {
       add(motor->effort);
     }
     add(friction_of(joint).value_or(0.0));
+    add(armature_of(joint));
     if (const AngularDrive* drive = angular_drive_of(joint)) {
       add(drive->across_a);
       add(drive->across_b);

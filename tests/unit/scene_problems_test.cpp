@@ -229,11 +229,12 @@ INSTANTIATE_TEST_SUITE_P(
             R"("type": "hinge")",
             R"("type": "slider")",
             {"/joints/0/type: must be ball, hinge, prismatic, weld or distance, not \"slider\""}},
-        BadFile{"EffectOfNoKind",
-                R"("friction"],)",
-                R"("friction", "magnetism"],)",
-                {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
-                 "external, limits, motors, drives or joint_friction, not \"magnetism\""}},
+        BadFile{
+            "EffectOfNoKind",
+            R"("friction"],)",
+            R"("friction", "magnetism"],)",
+            {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
+             "external, limits, motors, drives, joint_friction or armature, not \"magnetism\""}},
         BadFile{"EffectOfForcesMissing",
                 R"("shape": {"type": "sphere")",
                 R"("force": [0, 0, 0], "torque": [0, 1, 0], "shape": {"type": "sphere")",
@@ -559,6 +560,15 @@ TEST(SceneProblems, OfJointFriction) {
             List{"/joints/0/friction: must be above 0 (N m), not 0"});
   EXPECT_EQ(problems_with(R"("friction": 1)", R"("friction"])"),
             List{"/effects: \"joint_friction\" is missing, but /joints/0/friction is given"});
+}
+
+TEST(SceneProblems, OfArmatures) {
+  const std::string listed = R"("friction", "armature"])";
+  EXPECT_EQ(problems_with(R"("armature": 0.01)", listed), List{});
+  EXPECT_EQ(problems_with(R"("armature": 0)", listed),
+            List{"/joints/0/armature: must be at least 1e-60 (kg m^2), not 0"});
+  EXPECT_EQ(problems_with(R"("armature": 1)", R"("friction"])"),
+            List{"/effects: \"armature\" is missing, but /joints/0/armature is given"});
 }
 
 }  // namespace

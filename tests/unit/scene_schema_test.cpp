@@ -97,13 +97,13 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
   hinge.limit.emplace();
   hinge.motor.emplace();
   hinge.drive.emplace();
-  hinge.friction = 1.0;
+  hinge.friction = hinge.armature = 1.0;
   scene.joints.emplace_back(hinge);
   PrismaticJoint slide;
   slide.limit.emplace();
   slide.motor.emplace();
   slide.drive.emplace();
-  slide.friction = 1.0;
+  slide.friction = slide.armature = 1.0;
   scene.joints.emplace_back(slide);
   scene.joints.emplace_back(WeldJoint{});
   scene.joints.emplace_back(DistanceJoint{});

@@ -117,7 +117,9 @@ class Assembly {
     for (std::size_t i = 0; i < model_.links.size(); ++i) add_joints(i);
     for (const LinkLoop& loop : model_.loops) add_loop(loop);
     finish();
-    return *builder_.build();
+    Scene scene = *builder_.build();
+    scene.effects.friction = scene.effects.friction && scene.effects.contact;
+    return scene;
   }
 
  private:

@@ -72,7 +72,9 @@ std::optional<Scene> read_json(std::string_view text, const std::string& name,
                                ScenePlaces& places) {
   Problems problems;
   const std::optional<Json> json = parse_json(text, problems);
-  for (const Problem& problem : problems) report.errors.add(problem.pointer, problem.message);
+  for (const Problem& problem : problems) {
+    report.errors.add(problem.pointer.empty() ? name : problem.pointer, problem.message);
+  }
   if (!json || !problems.empty()) return std::nullopt;
   if (!is_slrbs(*json)) {
     report.errors.add(name, "is no model that is read: MJCF, URDF, or the JSON of SLRBS");

@@ -1,16 +1,15 @@
 #include "core/import/import_report.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace substep {
 
 void ImportNotes::add(std::string place, std::string text) {
-  const auto same = std::find_if(notes.begin(), notes.end(),
-                                 [&](const ImportNote& note) { return note.text == text; });
-  if (same != notes.end()) {
-    ++same->count;
+  const auto same = index_.find(text);
+  if (same != index_.end()) {
+    ++notes[same->second].count;
   } else if (notes.size() < kMost) {
+    index_.emplace(text, notes.size());
     notes.push_back({std::move(place), std::move(text), 1});
   } else {
     ++more;

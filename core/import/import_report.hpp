@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct ImportNotes {
 
   void add(std::string place, std::string text);
   [[nodiscard]] bool empty() const { return notes.empty(); }
+
+ private:
+  std::map<std::string, std::size_t> index_;  // of notes, by their text
 };
 
 /// What an importer did with a model. Nothing is dropped in silence.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string_view>
+#include <utility>
 
 #include "core/import/mjcf_model.hpp"
 #include "core/model/scene_limits.hpp"
@@ -69,7 +71,9 @@ class ActuatorReader {
     const std::vector<double> gears = in.numbers("gear", 1, 6, kGain);
     const double gear = gears.empty() ? 1.0 : gears.front();
     if (law->damping_ratio > 0.0 && law->stiffness > 0.0 && gear != 0.0) {
-      const double mass = joint_inertia(model_.mechanism, found->second) / (gear * gear);
+      double& inertia = inertias_[{found->second.link, found->second.joint}];
+      if (inertia == 0.0) inertia = joint_inertia(model_.mechanism, found->second);
+      const double mass = inertia / (gear * gear);
       law->damping = 2.0 * law->damping_ratio * std::sqrt(law->stiffness * mass);
     }
     add_drive(in, *law, gear, control, joint);
@@ -172,6 +176,7 @@ class ActuatorReader {
   const MjcfContext& context_;
   MjcfModel& model_;
   std::size_t count_ = 0;
+  std::map<std::pair<std::size_t, std::size_t>, double> inertias_;  // of joints, once computed
 };
 
 }  // namespace

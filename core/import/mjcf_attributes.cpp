@@ -73,7 +73,13 @@ DefaultClasses::DefaultClasses(const MjcfDocument& document, ImportNotes& errors
     const auto [element, of] = sections[i];
     for (const XmlElement& child : element->children) {
       if (child.name != "default") {
-        of->elements[child.name].push_back(&child);
+        constexpr std::size_t kMostOfOne = 100;
+        auto& same = of->elements[child.name];
+        if (same.size() < kMostOfOne) {
+          same.push_back(&child);
+        } else {
+          errors.add(document.place(child), "too many <" + child.name + "> in one default class");
+        }
         continue;
       }
       const std::string* name = child.attribute("class");

@@ -14,6 +14,7 @@ namespace substep {
 namespace {
 
 constexpr std::size_t kMostCopies = 10'000;
+constexpr std::size_t kMostItems = 1'000'000;
 
 /// An element of the tree that is still to be read.
 struct Item {
@@ -40,6 +41,9 @@ class BodyReader {
       while (!open_.empty()) {
         const Item item = std::move(open_.back());
         open_.pop_back();
+        if (++items_ > kMostItems) {
+          return context_.report.errors.add(place(section), "too many elements with their copies");
+        }
         read(item);
       }
     }
@@ -119,8 +123,8 @@ class BodyReader {
     for (std::size_t i = 0; i < copies; ++i) {
       std::string number = std::to_string(i);
       number.insert(0, digits - number.size(), '0');
-      frame.orientation = euler_orientation(static_cast<double>(i) * turn,
-                                            context_.compiler.euler_sequence);
+      frame.orientation =
+          euler_orientation(static_cast<double>(i) * turn, context_.compiler.euler_sequence);
       inner.push_back({item.element, item.link, item.frame * frame, item.childclass,
                        separator + number + item.suffix});
       frame.position += frame.orientation * offset;
@@ -319,6 +323,7 @@ class BodyReader {
   std::vector<Item> open_;
   std::vector<Parts> parts_;  // of every link
   std::size_t copies_ = 0;
+  std::size_t items_ = 0;
 };
 
 }  // namespace

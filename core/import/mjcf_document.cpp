@@ -9,9 +9,12 @@ namespace {
 
 constexpr std::size_t kMostFiles = 100;
 
-void set_file(XmlElement& element, int file) {
+/// @return the number of elements
+std::size_t set_file(XmlElement& element, int file) {
   element.file = file;
-  for (XmlElement& child : element.children) set_file(child, file);
+  std::size_t count = 1;
+  for (XmlElement& child : element.children) count += set_file(child, file);
+  return count;
 }
 
 class Includer {
@@ -19,20 +22,25 @@ class Includer {
   Includer(MjcfDocument& document, const ModelFiles& read, ImportNotes& errors)
       : document_(document), read_(read), errors_(errors) {}
 
-  void expand(XmlElement& element) {
+  /// @param depth of the element
+  void expand(XmlElement& element, std::size_t depth) {
+    if (depth > kMaxXmlDepth) {
+      return errors_.add(document_.place(element),
+                         "nested deeper than " + std::to_string(kMaxXmlDepth) + " elements");
+    }
     std::vector<XmlElement> children = std::exchange(element.children, {});
     for (XmlElement& child : children) {
       if (child.name == "include") {
-        include(child, element.children);
+        include(child, depth, element.children);
       } else {
-        expand(child);
+        expand(child, depth + 1);
         element.children.push_back(std::move(child));
       }
     }
   }
 
  private:
-  void include(const XmlElement& element, std::vector<XmlElement>& into) {
+  void include(const XmlElement& element, std::size_t depth, std::vector<XmlElement>& into) {
     const std::string place = document_.place(element);
     const std::string* file = element.attribute("file");
     if (file == nullptr) return errors_.add(place, "<include> has no file");
@@ -41,20 +49,22 @@ class Includer {
       return errors_.add(place, "'" + *file + "' is included twice, or includes itself");
     }
     if (files.size() == kMostFiles) return errors_.add(place, "too many included files");
-    const std::optional<std::string> text = read_(*file);
+    const auto text = read_ ? read_(*file) : std::optional<std::string>();
     if (!text) return errors_.add(place, "there is no file '" + *file + "'");
     files.push_back(*file);
     XmlFault fault;
     std::optional<XmlElement> root = parse_xml(*text, fault);
     if (!root) return errors_.add(*file + ":" + std::to_string(fault.line), fault.message);
-    set_file(*root, static_cast<int>(files.size()) - 1);
-    expand(*root);
+    elements_ += set_file(*root, static_cast<int>(files.size()) - 1);
+    if (elements_ > kMaxXmlElements) return errors_.add(place, "too many elements");
+    expand(*root, depth);
     std::move(root->children.begin(), root->children.end(), std::back_inserter(into));
   }
 
   MjcfDocument& document_;
   const ModelFiles& read_;
   ImportNotes& errors_;
+  std::size_t elements_ = 0;  // of included files
 };
 
 }  // namespace
@@ -66,7 +76,7 @@ std::string MjcfDocument::place(const XmlElement& element) const {
 std::optional<MjcfDocument> include_files(XmlElement root, const std::string& name,
                                           const ModelFiles& read, ImportNotes& errors) {
   MjcfDocument document{std::move(root), {name}};
-  Includer(document, read, errors).expand(document.root);
+  Includer(document, read, errors).expand(document.root, 0);
   if (!errors.empty()) return std::nullopt;
   return document;
 }

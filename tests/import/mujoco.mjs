@@ -31,9 +31,10 @@ export const withoutFiles = (text) => text
   .replace(/<geom\b[^>]*>/g, (geom) => (/vertex=/.test(text) ? geom : geom
     .replace(/type="mesh"/, 'type="sphere" size="0.001" mass="0"').replace(/\smesh="[^"]*"/, "")));
 
-/** A URDF model with joints whose bounds are far away. */
-export const withoutLimits = (text) =>
-  text.replace(/<limit\b[^>]*>/g, '<limit effort="0" velocity="0" lower="-1000" upper="1000"/>');
+/** A URDF model without contact, and with joints whose bounds are far away. */
+export const passiveUrdf = (text) =>
+  text.replace(/<limit\b[^>]*>/g, '<limit effort="0" velocity="0" lower="-1000" upper="1000"/>')
+    .replace("</robot>", '<mujoco><option><flag contact="disable"/></option></mujoco></robot>');
 
 /** Without armature, contact, limits, dry friction, equality, actuators, and what else is switched off. */
 export function passive(text, ...others) {

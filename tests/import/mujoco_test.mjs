@@ -9,7 +9,9 @@ import { execFileSync } from "node:child_process";
 import { basename, dirname, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import test from "node:test";
-import { bodiesOfScene, inFolder, Oracle, passive, relative, run, whole, withoutFiles, withoutLimits } from "./mujoco.mjs";
+import {
+  bodiesOfScene, inFolder, Oracle, passive, passiveUrdf, relative, run, whole, withoutFiles,
+} from "./mujoco.mjs";
 
 const [program, ...others] = process.argv.slice(2);
 const folder = join(dirname(fileURLToPath(import.meta.url)), "models");
@@ -33,7 +35,7 @@ for (const model of models) {
   // are not there, and fast motion.
   const isOwn = others.length === 0;
   const plain = isOwn ? whole(path) : withoutFiles(whole(path));
-  const text = isUrdf ? (isOwn ? plain : withoutLimits(plain))
+  const text = isUrdf ? (isOwn ? plain : passiveUrdf(plain))
     : (isOwn ? passive(plain) : passive(plain, "spring", "damper"));
   const finer = isOwn ? 1 : 4;
   const name = basename(model);

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "app/cli/bounded_text.hpp"
@@ -13,13 +12,11 @@
 #include "app/cli/output.hpp"
 #include "app/cli/within.hpp"
 #include "core/import/import_model.hpp"
-#include "core/import/xml.hpp"
+#include "core/io/json_text.hpp"
 #include "core/io/scene_writer.hpp"
 
 namespace substep::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ImportCommandOptions {
   std::string model;
@@ -27,17 +24,6 @@ struct ImportCommandOptions {
   bool report = false;
   ImportOptions how;
 };
-
-/// A regular file of at most kMaxXmlSize bytes, and one byte more if it is longer.
-std::optional<std::string> regular_file(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  const Reading reading = read_bounded(file, kMaxXmlSize, text);
-  if (!file.is_open() || reading == Reading::kFailed) return std::nullopt;
-  return text;
-}
 
 void print_notes(std::FILE* words, const char* heading, const ImportNotes& notes) {
   if (notes.empty()) return;
@@ -61,22 +47,18 @@ void print_report(std::FILE* words, const ImportReport& report, const std::strin
 
 int import(const ImportCommandOptions& options) {
   const bool is_input = options.model == "-";
-  const fs::path path = options.model;
-  std::optional<std::string> text;
-  if (is_input) {
-    text.emplace();
-    if (read_bounded(std::cin, kMaxXmlSize, *text) == Reading::kFailed) text.reset();
-  } else {
-    text = regular_file(path);
-  }
+  const std::filesystem::path path = options.model;
   const std::string name = is_input ? "standard input" : path.filename().string();
-  if (!text) {
-    complain("%s: cannot be read", options.model.c_str());
+  std::ifstream file;
+  if (!is_input) file.open(path, std::ios::binary);
+  std::string text;
+  if ((!is_input && !file) ||
+      read_bounded(is_input ? std::cin : file, kMaxTextSize, text) == Reading::kFailed) {
+    complain("%s: %s", name.c_str(), std::strerror(errno));
     return kBadInput;
   }
-  const fs::path folder = is_input ? fs::path() : path.parent_path();
-  const ModelFiles files = [&](const std::string& file) { return regular_file(folder / file); };
-  const ImportResult result = import_model(*text, name, files, options.how);
+  const ModelFiles files = is_input ? ModelFiles() : files_beside(path);
+  const ImportResult result = import_model(text, name, files, options.how);
   for (const ImportNote& note : result.report.errors.notes) {
     complain("%s", to_string(note).c_str());
   }
@@ -122,9 +104,9 @@ void add_import(CLI::App& app, int& exit_code) {
       "be\n"
       "read.\n"
       "Examples:\n"
-      "  substep import robot.xml --report\n"
-      "  substep import robot.xml --key home --out robot.json\n"
-      "  substep import robot.urdf | substep run -");
+      "  substep import my_robot.xml --report\n"
+      "  substep import my_robot.xml --key home --out my_robot.json\n"
+      "  substep import my_robot.urdf | substep run -");
   command->callback([options, &exit_code] { exit_code = import(*options); });
 }
 

@@ -343,7 +343,7 @@ class Assembly {
     for (std::size_t made = before; made < builder_.scene().joints.size(); ++made) {
       name_joint(static_cast<int>(made), l.joints.front());
     }
-    ++stacks_[what];
+    ++stacks_["several joints that are " + what];
     for (const LinkJoint& joint : l.joints) note_lost_parts(joint, what);
   }
 
@@ -367,14 +367,14 @@ class Assembly {
     if (joint.kind == JointKind::kFree) return note_lost_parts(joint, "a free body");
     if (joint.kind == JointKind::kBall) {
       name_joint(builder_.add_ball_joint(a, b, at.anchor), joint);
-      ++stacks_["a ball joint"];
+      ++stacks_["ball joints"];
       return note_lost_parts(joint, "a ball joint");
     }
     const bool is_hinge = joint.kind == JointKind::kHinge;
     const int i = is_hinge ? builder_.add_hinge(a, b, at.anchor, at.axis)
                            : builder_.add_prismatic(a, b, at.anchor, at.axis);
     name_joint(i, joint);
-    ++stacks_[is_hinge ? "a hinge" : "a slide"];
+    ++stacks_[is_hinge ? "hinges" : "slides"];
     if (joint.limit) add_limit(i, joint, is_hinge);
     add_drive(i, joint);
     if (joint.friction > 0.0) builder_.rub(i, joint.friction);
@@ -484,20 +484,17 @@ class Assembly {
     scene.description = "Imported from " + model_.source + ".";
     scene.gravity = y_up(model_.gravity);
     look_at_bodies(scene);
-    report_.came_in.push_back(std::to_string(moving_) + " moving bodies, " +
+    report_.came_in.push_back("moving bodies: " + std::to_string(moving_) + ", " +
                               number_text(three_digits(mass_)) + " kg");
-    std::string joints;
-    for (const auto& [what, count] : stacks_) {
-      joints.append(joints.empty() ? "joints: " : ", ").append(what);
-      if (count > 1) joints.append(" (").append(std::to_string(count)).append(" times)");
-    }
-    if (!joints.empty()) report_.came_in.push_back(joints);
-    if (!model_.loops.empty()) {
-      report_.came_in.push_back(std::to_string(model_.loops.size()) + " loops");
-    }
     if (parts_ > 0) {
-      report_.came_in.push_back(std::to_string(parts_) +
-                                " bodies without joints are parts of their parents");
+      report_.came_in.push_back("merged into their parents, without joints: " +
+                                std::to_string(parts_));
+    }
+    for (const auto& [what, count] : stacks_) {
+      report_.came_in.push_back(what + ": " + std::to_string(count));
+    }
+    if (!model_.loops.empty()) {
+      report_.came_in.push_back("loops: " + std::to_string(model_.loops.size()));
     }
   }
 

@@ -86,10 +86,8 @@ std::optional<Scene> read_json(std::string_view text, const std::string& name,
 }  // namespace
 
 bool is_model(std::string_view text) {
-  if (is_xml(text)) return true;
-  Problems problems;
-  const std::optional<Json> json = parse_json(text, problems);
-  return json && is_slrbs(*json);
+  const auto has = [&](std::string_view word) { return text.find(word) != std::string_view::npos; };
+  return is_xml(text) || (has("\"bodies\"") && has("\"geometry\"") && !has("\"substep-scene\""));
 }
 
 ImportResult import_model(std::string_view text, const std::string& name, const ModelFiles& files,

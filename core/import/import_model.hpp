@@ -15,8 +15,8 @@ struct ImportResult {
   ImportReport report;
 };
 
-/// Whether a text is a model of another format: XML, or a scene of SLRBS. The reader of scenes
-/// refuses it.
+/// Whether a text looks like a model rather than a scene: it is XML, or JSON with the words of
+/// SLRBS. It is not parsed.
 bool is_model(std::string_view text);
 
 /// Makes a scene of a model in MJCF, URDF or the JSON of SLRBS. The scene is valid. Never throws.

@@ -44,8 +44,8 @@ class SlrbsReader {
     scene.name = identifier_of(name);
     scene.title = text_within(name, kMaxTitle);
     scene.group = "imported";
-    report_.came_in.push_back(std::to_string(scene.bodies.size()) + " bodies, " +
-                              std::to_string(scene.joints.size()) + " joints");
+    report_.came_in.push_back("bodies: " + std::to_string(scene.bodies.size()));
+    report_.came_in.push_back("joints: " + std::to_string(scene.joints.size()));
     return *builder_.build();
   }
 

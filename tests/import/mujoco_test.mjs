@@ -15,7 +15,7 @@ import {
 
 const [program, ...others] = process.argv.slice(2);
 const folder = join(dirname(fileURLToPath(import.meta.url)), "models");
-const ours = ["arm.xml", "walker.xml", "walker.xml#going", "copies.xml", "arm.urdf"].map((name) => join(folder, name));
+const ours = ["arm.xml", "walker.xml", "walker.xml#home", "copies.xml", "arm.urdf"].map((name) => join(folder, name));
 const models = others.length > 0 ? others : ours;
 
 /** The scene of a model's text: the file, and its content. */

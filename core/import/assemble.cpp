@@ -194,13 +194,14 @@ class Assembly {
   }
 
   void add_ground() {
-    for (const Ground& ground : model_.grounds) {
+    for (const GroundPlane& ground : model_.grounds) {
       const int i = builder_.add_fixed(Plane{}, y_up(ground.pose.position));
       Body& body = builder_.body(i);
       const Quat z_from_y = turn_about(Vec3::UnitX(), std::numbers::pi / 2.0);
       body.orientation = (y_up(ground.pose).orientation * z_from_y).normalized();
       body.friction = ground.friction;
-      finish_body(i, ground.name, "", options_.collide);
+      finish_body(i, ground.name, ground.place, options_.collide);
+      note_collision(ground.place);
     }
   }
 
@@ -209,6 +210,11 @@ class Assembly {
     body.name = body_names_.unique(name);
     body.collides = collides;
     places_.bodies.push_back(place);
+  }
+
+  void note_collision(const std::string& place) {
+    if (options_.collide) return;
+    report_.left_out.add(place, "collisions of a sphere, box or plane (--collide)");
   }
 
   void add_body(std::size_t i) {
@@ -240,6 +246,7 @@ class Assembly {
     const Vec3 arm = motion.pose.orientation * frame.position;
     made.velocity = y_up(motion.velocity + motion.angular_velocity.cross(arm));
     made.angular_velocity = y_up(motion.angular_velocity);
+    if (is_exact) note_collision(l.place);
     made.friction = options_.collide && is_exact ? l.friction : 0.0;
     if (options_.collide && is_exact) made.collision_group = tree_of(i);
     finish_body(body, l.name, l.place, options_.collide && is_exact);
@@ -303,6 +310,7 @@ class Assembly {
       const Shape shape =
           is_sphere ? Shape(Sphere{own.solid.half.x()}) : Shape(Box{own.solid.half});
       add_fixed(shape, pose * own.pose, l, options_.collide);
+      note_collision(l.place);
     }
     if (l.shapes.empty() && l.mass.mass > 0.0) {
       const PrincipalAxes axes = principal_axes(l.mass.inertia);

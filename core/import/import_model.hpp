@@ -4,9 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "core/import/import_options.hpp"
 #include "core/import/import_report.hpp"
-#include "core/import/mechanism.hpp"
 #include "core/import/model_files.hpp"
+#include "core/model/scene.hpp"
 
 namespace substep {
 

@@ -32,7 +32,9 @@ Feet feet_of(const PlacedJoint& first, const PlacedJoint& second) {
 std::string add_two_hinges(SceneBuilder& builder, const StackBodies& bodies,
                            const PlacedJoint& first, const PlacedJoint& second) {
   if (first.axis.cross(second.axis).norm() < kIndependent) return "";
-  const auto [on_first, on_second] = feet_of(first, second);
+  const Feet feet = feet_of(first, second);
+  const Vec3 on_first = feet.on_first;
+  const Vec3 on_second = feet.on_second;
   const double apart = (on_first - on_second).norm();
   // The first axis is fixed in b and the second in a: the distance between a point of one and a
   // point of the other is constant.

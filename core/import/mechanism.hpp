@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/import/import_options.hpp"
 #include "core/import/import_report.hpp"
 #include "core/import/mass_properties.hpp"
 #include "core/import/solid.hpp"
@@ -71,8 +72,9 @@ struct LinkLoop {
 };
 
 /// A half-space of the world.
-struct Ground {
+struct GroundPlane {
   std::string name;
+  std::string place;
   Pose pose;  // its normal is z
   double friction = 0.0;
 };
@@ -84,26 +86,21 @@ struct Mechanism {
   Vec3 gravity{0.0, 0.0, -9.81};  // z up [m/s^2]
   std::vector<Link> links;        // parents first
   std::vector<LinkLoop> loops;
-  std::vector<Ground> grounds;
-};
-
-struct ImportOptions {
-  std::string key;         // MJCF: the keyframe to start in, by name or number; "": none
-  bool collide = false;    // spheres, boxes and planes collide
-  bool free_root = false;  // URDF: the root link is not fixed to the world
+  std::vector<GroundPlane> grounds;
 };
 
 /// The pose of every link in the world, with all joints at their reference.
 std::vector<Pose> reference_poses(const Mechanism& mechanism);
 
-/// A scene with Y up. Links without joints become part of their parents, bodies get their principal
-/// axes, and several joints in one place become what they are together. The scene is not yet
-/// validated; `report` has errors for what cannot be expressed.
-/// @param places of the bodies and joints of the scene in the model
+/// Where the bodies and joints of a scene are in the model.
 struct ScenePlaces {
   std::vector<std::string> bodies;
   std::vector<std::string> joints;
 };
+
+/// A scene with Y up. Links without joints become part of their parents, bodies get their principal
+/// axes, and several joints in one place become what they are together. The scene is not yet
+/// validated; `report` has errors for what cannot be expressed.
 Scene assemble(Mechanism mechanism, const ImportOptions& options, ImportReport& report,
                ScenePlaces& places);
 

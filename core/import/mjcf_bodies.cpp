@@ -69,6 +69,7 @@ class BodyReader {
   void add_world() {
     Link world;
     world.name = "ground";
+    world.place = context_.document.files.front();
     links().push_back(world);
     parts_.emplace_back();
     model_.bodies["world"] = -1;
@@ -187,7 +188,7 @@ class BodyReader {
     if (!geom.collides) return;
     const std::string where = place(*item.element);
     if (geom.kind == MjcfGeom::Kind::kPlane && item.link < 0) {
-      model_.mechanism.grounds.push_back({"floor", geom.pose, geom.friction});
+      model_.mechanism.grounds.push_back({"floor", where, geom.pose, geom.friction});
     } else if (geom.kind == MjcfGeom::Kind::kSolid &&
                (geom.solid.kind == Solid::Kind::kSphere || geom.solid.kind == Solid::Kind::kBox)) {
       link.shapes.push_back({geom.solid, geom.pose});

@@ -68,6 +68,10 @@ MjcfMeshes read_meshes(const MjcfContext& context, const ModelFiles& read) {
       if (element.name == "model") {
         context.report.left_out.add(context.document.place(element), "<model> of another file");
       }
+      if (element.name == "texture" || element.name == "material" || element.name == "skin") {
+        context.report.left_out.add(context.document.place(element),
+                                    "colours, materials and user data");
+      }
       if (element.name != "mesh") continue;
       MjcfAttributes in(context, element);
       in.ignore({"normal", "texcoord", "smoothnormal", "maxhullvert", "content_type"});

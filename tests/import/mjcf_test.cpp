@@ -230,6 +230,7 @@ TEST(Mjcf, WhatIsNotReadIsListedWithItsLine) {
             "model.xml:14: an actuator of kind 'muscle'\n"
             "model.xml:10: a tendon (spatial)\n"
             "model.xml:12: <deformable> and all that is in it\n"
+            "model.xml:3: collisions of a sphere, box or plane (--collide)\n"
             "model.xml:4: armature is not simulated yet\n");
 }
 

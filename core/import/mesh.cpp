@@ -37,7 +37,8 @@ std::vector<Vec3> points_of_stl(std::string_view content, std::string& fault) {
       Vec3 point;
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t at = kHead + t * kTriangle + kNormal + 12 * corner + 4 * i;
-        point[static_cast<int>(i)] = std::bit_cast<float>(word_at(content, at));
+        point[static_cast<int>(i)] =
+            static_cast<double>(std::bit_cast<float>(word_at(content, at)));
       }
       if (!point.allFinite()) {
         fault = "a coordinate is not finite";

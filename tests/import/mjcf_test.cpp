@@ -260,6 +260,17 @@ TEST(Mjcf, ShapesCollideOnRequestIfTheSceneCanHoldThem) {
   EXPECT_NEAR(simulator.state().x[2].y(), 0.5, 1e-3);
 }
 
+TEST(Mjcf, AShapeAwayFromTheCentreOfMassIsNotThatOfTheBody) {
+  const auto result = imported(
+      world("<body name='a'><freejoint/><inertial pos='0 0 0.1' mass='1' diaginertia='1 1 1'/>"
+            "<geom size='0.5'/></body>"),
+      {.key = "", .collide = true});
+  ASSERT_NE(result.scene, nullptr) << lines(result.report.errors);
+  EXPECT_FALSE(result.scene->bodies[0].collides);
+  EXPECT_EQ(lines(result.report.approximated),
+            "model.xml:1: a body is drawn as the box of its inertia and does not collide\n");
+}
+
 TEST(Mjcf, ABodyIsDrawnAsTheBoxOfItsInertia) {
   const auto result = imported(
       world("<body><freejoint/><inertial pos='0 0 0' mass='3' diaginertia='1.25 1 0.75'/></body>"));

@@ -68,6 +68,8 @@ TEST(Xml, RefusesWhatExceedsItsLimits) {
   std::string deep;
   for (std::size_t i = 0; i < 100'000; ++i) deep += "<a>";
   EXPECT_EQ(fault_of(deep), "1: nested deeper than 256 elements");
+  EXPECT_EQ(fault_of(deep.substr(0, 3 * 257)), "1: nested deeper than 256 elements");
+  EXPECT_EQ(fault_of(deep.substr(0, 3 * 256)), "1: the file ends inside <a> of line 1");
   std::string many = "<a>";
   for (std::size_t i = 0; i <= kMaxXmlElements; ++i) many += "<b/>";
   EXPECT_EQ(fault_of(many), "1: more than 200000 elements");

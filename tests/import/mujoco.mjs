@@ -116,6 +116,11 @@ export class Oracle {
       ...combine(solids.filter(({ mass }) => mass > 0)),
     }));
   }
+  /** Frees its memory. */
+  free() {
+    this.data.delete();
+    this.model.delete();
+  }
   /** Runge-Kutta of fourth order with these many steps a second. */
   advance(seconds, rate) {
     this.model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4.value;

@@ -12,11 +12,13 @@ import test from "node:test";
 import {
   bodiesOfScene, inFolder, Oracle, passive, passiveUrdf, relative, run, whole, withoutFiles,
 } from "./mujoco.mjs";
+import { randomModel } from "./random_model.mjs";
 
 const [program, ...others] = process.argv.slice(2);
 const folder = join(dirname(fileURLToPath(import.meta.url)), "models");
-const ours = ["arm.xml", "walker.xml", "walker.xml#home", "copies.xml", "arm.urdf"].map((name) => join(folder, name));
-const models = others.length > 0 ? others : ours;
+const own = ["arm.xml", "walker.xml", "walker.xml#home", "copies.xml", "arm.urdf"]
+  .map((name) => join(folder, name));
+const models = others.length > 0 ? others : own;
 
 /** The scene of a model's text: the file, and its content. */
 function imported(directory, path, text, key) {
@@ -24,8 +26,28 @@ function imported(directory, path, text, key) {
   const scene = join(directory, "scene.json");
   writeFileSync(model, text);
   execFileSync(program, ["import", model, "--out", scene, ...(key ? ["--key", key] : [])],
-    { stdio: ["ignore", "ignore", "inherit"] });
+    { stdio: ["ignore", "ignore", "pipe"] });
   return { file: scene, content: JSON.parse(readFileSync(scene, "utf8")) };
+}
+
+/** The largest relative differences of bodies; fails if one is above 1e-9. */
+function differences(ours, theirs) {
+  assert.equal(ours.length, theirs.length);
+  const worst = { mass: 0, centre: 0, inertia: 0 };
+  for (const [i, body] of ours.entries()) {
+    const { mass, centre, inertia } = theirs[i];
+    const scale = Math.max(1, ...centre.map(Math.abs));
+    const found = {
+      mass: relative([body.mass], [mass]),
+      centre: Math.max(...body.centre.map((x, j) => Math.abs(x - centre[j]))) / scale,
+      inertia: relative(body.inertia, inertia),
+    };
+    for (const [what, difference] of Object.entries(found)) {
+      assert.ok(difference < 1e-9, `${body.name}: ${what} differs by ${difference}`);
+      worst[what] = Math.max(worst[what], difference);
+    }
+  }
+  return worst;
 }
 
 for (const model of models) {
@@ -42,22 +64,8 @@ for (const model of models) {
 
   test(`${name}: masses, inertias and poses are MuJoCo's`, async () => {
     const oracle = await Oracle.of(text, key);
-    const theirs = oracle.bodies();
     const read = inFolder((directory) => bodiesOfScene(imported(directory, path, text, key).content));
-    assert.equal(read.length, theirs.length);
-    const worst = { mass: 0, centre: 0, inertia: 0 };
-    for (const [i, body] of read.entries()) {
-      const scale = Math.max(1, ...theirs[i].centre.map(Math.abs));
-      const differences = {
-        mass: relative([body.mass], [theirs[i].mass]),
-        centre: Math.max(...body.centre.map((x, j) => Math.abs(x - theirs[i].centre[j]))) / scale,
-        inertia: relative(body.inertia, theirs[i].inertia),
-      };
-      for (const [what, difference] of Object.entries(differences)) {
-        assert.ok(difference < 1e-9, `${body.name}: ${what} differs by ${difference}`);
-        worst[what] = Math.max(worst[what], difference);
-      }
-    }
+    const worst = differences(read, oracle.bodies());
     console.log(name, "differs at most by", worst);
   });
 
@@ -85,6 +93,23 @@ for (const model of models) {
     }
     for (const { integrator, order, observed, found } of orders) {
       assert.ok(Math.abs(observed - order) < 0.15, `${integrator}: order ${observed}, ${found}`);
+    }
+  });
+}
+
+if (others.length === 0) {
+  test("random models: masses, inertias and poses are MuJoCo's", async () => {
+    const kModels = 150;
+    for (let seed = 1; seed <= kModels; ++seed) {
+      const text = randomModel(seed);
+      const oracle = await Oracle.of(text);
+      const read = inFolder((directory) => bodiesOfScene(imported(directory, "model.xml", text).content));
+      try {
+        differences(read, oracle.bodies());
+      } catch (error) {
+        throw new Error(`random model ${seed}: ${error.message}\n${text}`, { cause: error });
+      }
+      oracle.free();
     }
   });
 }

@@ -1,11 +1,8 @@
 #include "core/import/mesh.hpp"
 
-#include <array>
-#include <bit>
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 
 #include "core/import/xml_numbers.hpp"
 
@@ -20,6 +17,13 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
     word = (word << 8U) | static_cast<unsigned char>(bytes[at + i]);
   }
   return word;
+}
+
+double number_at(std::string_view bytes, std::size_t at) {
+  const std::uint32_t word = word_at(bytes, at);
+  float number = 0.0F;
+  std::memcpy(&number, &word, sizeof number);
+  return static_cast<double>(number);
 }
 
 std::vector<Vec3> points_of_stl(std::string_view content, std::string& fault) {
@@ -37,8 +41,7 @@ std::vector<Vec3> points_of_stl(std::string_view content, std::string& fault) {
       Vec3 point;
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t at = kHead + t * kTriangle + kNormal + 12 * corner + 4 * i;
-        point[static_cast<int>(i)] =
-            static_cast<double>(std::bit_cast<float>(word_at(content, at)));
+        point[static_cast<int>(i)] = number_at(content, at);
       }
       if (!point.allFinite()) {
         fault = "a coordinate is not finite";

@@ -1,6 +1,7 @@
 #include "core/import/model_files.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <system_error>
 
@@ -14,7 +15,8 @@ std::optional<std::string> read_model_file(const std::filesystem::path& path) {
   const auto size = std::filesystem::file_size(path, error);
   std::ifstream file(path, std::ios::binary);
   if (error || !file) return std::nullopt;
-  std::string text(std::min<std::uintmax_t>(size, kMaxTextSize + 1), '\0');
+  const auto most = static_cast<std::size_t>(std::min<std::uintmax_t>(size, kMaxTextSize + 1));
+  std::string text(most, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;

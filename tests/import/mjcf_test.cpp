@@ -292,5 +292,28 @@ TEST(Mjcf, AMeshHasTheMassOfItsConvexHull) {
             "model.xml:1: body 'a' moves but has no mass: there is no file 'part.obj'");
 }
 
+TEST(Mjcf, ABinaryStlIsReadToItsLastTriangle) {
+  // A tetrahedron, as triangles of single precision with normals that do not count.
+  const float corners[4][3] = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 1}};
+  const int triangles[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+  std::string stl(80, ' ');
+  stl += std::string("\4\0\0\0", 4);
+  for (const auto& triangle : triangles) {
+    stl += std::string(12, '\0');
+    for (const int corner : triangle) {
+      stl.append(reinterpret_cast<const char*>(corners[corner]), 12);
+    }
+    stl += std::string(2, '\0');
+  }
+  const std::string text =
+      world("<body name='a'><freejoint/><geom type='mesh' mesh='part' density='10'/></body>",
+            "<asset><mesh file='part.stl'/></asset>");
+  const auto result = imported(text, {}, {{"part.stl", stl}});
+  ASSERT_NE(result.scene, nullptr) << lines(result.report.errors);
+  EXPECT_NEAR(result.scene->bodies[0].mass, 10.0, 1e-13);
+  EXPECT_EQ(error_of(text, {}, {{"part.stl", stl.substr(0, stl.size() - 1)}}),
+            "model.xml:1: body 'a' moves but has no mass: it is no binary STL");
+}
+
 }  // namespace
 }  // namespace substep

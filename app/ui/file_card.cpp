@@ -58,7 +58,8 @@ void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser
         (entry.folder ? folder : file) = browser.folder() / entry.name;
       }
       if (browser.entries().empty()) {
-        label(look.fonts.small, look.theme->dim, "No folders, scenes (*.json) or models (*.xml, *.urdf) here.");
+        label(look.fonts.small, look.theme->dim,
+              "No folders, scenes (*.json) or models (*.xml, *.urdf) here.");
       }
       if (!folder.empty()) browser.show(folder);
       if (!file.empty()) open(lab, browser, file);

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "app/lab/frame_slices.hpp"
+#include "app/lab/opened_text.hpp"
 #include "app/text/citation.hpp"
 #include "app/text/export.hpp"
 #include "app/text/introduction.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/interface_scale.hpp"
+#include "core/import/import_model.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/names.hpp"
@@ -47,10 +49,13 @@ json outcome(const std::vector<Problem>& problems) {
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
-/// Of the parsed scene.
-substep::SceneResult read_result() {
-  if (!instance->reading) return {nullptr, {{"", "no scene was read"}}};
-  return std::exchange(instance->reading, nullptr)->result();
+/// Of the parsed scene, or of the model. @param from name of the file
+substep::OpenedText read_result(const std::string& from) {
+  if (!instance->model.empty()) {
+    return substep::read_opened(std::exchange(instance->model, ""), from, {});
+  }
+  if (!instance->reading) return {{nullptr, {{"", "no scene was read"}}}, ""};
+  return {std::exchange(instance->reading, nullptr)->result(), ""};
 }
 
 // Texts of the first screen, or null if it is not shown.
@@ -140,7 +145,9 @@ const char* substep_open_link(const char* fragment) {
 }
 
 void substep_read(const char* text) {
-  instance->reading = std::make_unique<substep::SceneReading>(text);
+  instance->model = substep::is_model(text) ? text : "";
+  instance->reading =
+      instance->model.empty() ? std::make_unique<substep::SceneReading>(text) : nullptr;
 }
 
 int substep_read_some() {
@@ -153,13 +160,17 @@ int substep_read_some() {
 
 const char* substep_open_read(const char* from) {
   const bool playing = app().session.playing();
-  if (app().open_paused(read_result(), from)) app().opened->plays = playing;
+  substep::OpenedText read = read_result(from);
+  if (app().open_paused(std::move(read.result), from)) {
+    app().opened->plays = playing;
+    if (!read.note.empty()) app().tell(std::move(read.note));
+  }
   return keep(outcome(app().trouble.problems));
 }
 
 const char* substep_open_read_link(const char* fragment) {
   app().trouble = {};
-  app().open_link_paused(fragment, read_result());
+  app().open_link_paused(fragment, read_result("the scene").result);
   return keep(outcome(app().trouble.problems));
 }
 

@@ -74,7 +74,7 @@ export function makeFiles(frame, wasm, host, readScene) {
   host.saveFile = save;
   host.openFile = () => {
     const chooser = Object.assign(document.createElement("input"),
-      { type: "file", accept: ".json,application/json" });
+      { type: "file", accept: ".json,.xml,.urdf,application/json,text/xml" });
     chooser.addEventListener("change", () => open(chooser.files[0]));
     chooser.click();
   };

@@ -2,6 +2,7 @@
 // The single application of this module: created by substep_start, used by all exports.
 
 #include <memory>
+#include <string>
 
 #include "app/app.hpp"
 #include "app/ui/context.hpp"
@@ -13,6 +14,7 @@ struct Instance {
   ui::Context context;
   std::unique_ptr<App> app;
   std::unique_ptr<SceneReading> reading;  // of the scene being parsed, or parsed last
+  std::string model;                      // the text instead, if it is imported
   bool pinching = false;                  // a two-finger gesture on the picture is or was active
 };
 

@@ -5,10 +5,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include "app/cli/bounded_text.hpp"
 #include "app/cli/message.hpp"
+#include "core/import/import_model.hpp"
+#include "core/import/model_files.hpp"
 #include "core/io/json_text.hpp"
 #include "core/io/object_reader.hpp"
 #include "core/io/scene_reader.hpp"
@@ -39,6 +42,24 @@ std::string scene_path(const std::string& name_or_path) {
   return (std::filesystem::path(scenes_folder()) / (name_or_path + ".json")).string();
 }
 
+namespace {
+
+/// `substep import` has the options, and lists what is left out.
+std::shared_ptr<const Scene> import_scene(const std::string& text, const std::string& name,
+                                          const ModelFiles& files) {
+  const ImportResult result = import_model(text, name, files, {});
+  for (const ImportNote& error : result.report.errors.notes)
+    complain("%s", to_string(error).c_str());
+  const ImportNotes& left_out = result.report.left_out;
+  if (result.scene != nullptr && !left_out.empty()) {
+    say(stderr, "%s: a model; %zu of its parts are left out: see `substep import`\n",
+        visible_text(name).c_str(), left_out.notes.size() + left_out.more);
+  }
+  return result.scene;
+}
+
+}  // namespace
+
 std::shared_ptr<const Scene> load_scene(const std::string& name_or_path) {
   SceneResult result;
   std::string place = name_or_path;
@@ -49,6 +70,7 @@ std::shared_ptr<const Scene> load_scene(const std::string& name_or_path) {
       complain("%s: %s", place.c_str(), std::strerror(errno));
       return nullptr;
     }
+    if (is_model(text)) return import_scene(text, place, {});
     result = read_scene(text);
   } else {
     place = scene_path(name_or_path);
@@ -59,6 +81,12 @@ std::shared_ptr<const Scene> load_scene(const std::string& name_or_path) {
       complain("%s: no such scene or file%s; `substep scenes` lists the scenes",
                name_or_path.c_str(), did_you_mean(name_or_path, candidates).c_str());
       return nullptr;
+    }
+    std::ifstream file(place, std::ios::binary);
+    std::string text;  // read_scene_file() reports a file that cannot be read
+    if (file && read_bounded(file, kMaxTextSize, text) == Reading::kWhole && is_model(text)) {
+      return import_scene(text, std::filesystem::path(place).filename().string(),
+                          files_beside(place));
     }
     result = read_scene_file(place);
   }

@@ -52,8 +52,18 @@ bool Lab::open(std::string_view name) {
   return scene != nullptr || session.scene().name == name;
 }
 
-bool Lab::open_text(std::string_view json, const std::string& from) {
-  return open_result(read_scene(json), from);
+bool Lab::open_text(std::string_view text, const std::string& from) {
+  return open_opened(read_opened(text, from, {}), from);
+}
+
+bool Lab::open_file(const std::filesystem::path& path) {
+  return open_opened(read_opened_file(path), path.filename().string());
+}
+
+bool Lab::open_opened(OpenedText read, const std::string& from) {
+  if (!open_result(std::move(read.result), from)) return false;
+  if (!read.note.empty()) tell(std::move(read.note));
+  return true;
 }
 
 bool Lab::open_result(SceneResult result, const std::string& from) {

@@ -13,6 +13,7 @@
 #include "app/lab/heavy_start.hpp"
 #include "app/lab/host.hpp"
 #include "app/lab/library.hpp"
+#include "app/lab/opened_text.hpp"
 #include "app/lab/own_scenes.hpp"
 #include "app/lab/session.hpp"
 #include "core/io/scene_reader.hpp"
@@ -30,9 +31,14 @@ struct Lab {
 
   /// Runs a shipped scene. @return false if there is none of that name
   bool open(std::string_view name);
-  /// Runs a scene given as text. If it has problems they are shown and the current run continues.
+  /// Runs a scene given as text, or as a model in a format that is imported. If it has problems
+  /// they are shown and the current run continues.
   /// @param from its name in messages: a file name
-  bool open_text(std::string_view json, const std::string& from);
+  bool open_text(std::string_view text, const std::string& from);
+  /// Like open_text(), for a file.
+  bool open_file(const std::filesystem::path& path);
+  /// Like open_text(), for a text already read.
+  bool open_opened(OpenedText read, const std::string& from);
   /// Like open_text(), for a scene already read, or the problems of reading it.
   bool open_result(SceneResult result, const std::string& from);
   /// open_result() without start_opened(): the run is loaded and paused, so that a page can redraw

@@ -75,8 +75,7 @@ double window_ratio(const Window& window) {
 
 void drop_files(GLFWwindow* handle, int count, const char** paths) {
   if (count < 1) return;
-  const std::filesystem::path path = paths[0];
-  window_of(handle).app->open_result(read_scene_file(path.string()), path.filename().string());
+  window_of(handle).app->open_file(paths[0]);
 }
 
 void listen(GLFWwindow* handle) {
@@ -111,10 +110,7 @@ std::string apply(const Options& options, App& app) {
     const std::string problem = app.set(key, value);
     if (!problem.empty()) return key + ": " + problem + "\n";
   }
-  if (!options.open.empty()) {
-    const std::filesystem::path path = options.open;
-    app.open_result(read_scene_file(options.open), path.filename().string());
-  }
+  if (!options.open.empty()) app.open_file(options.open);
   if (!options.link.empty()) app.open_link(options.link);
   app.desk.dark = !options.light;
   app.desk.panels = !options.bare;

@@ -75,11 +75,11 @@ void add_body(std::vector<Instance>& boxes, std::vector<Instance>& balls, const 
 
 // Whether a point of the body frame is so far outside the shape that nothing would seem to hold it.
 bool is_off_surface(const Shape& shape, const Vec3& point) {
-  constexpr double kFar = 1.05;  // of the extent
+  constexpr double kOutside = 1.05;  // of the extent
   const auto solid = outline(shape);
   if (!solid) return false;
-  if (solid->is_ball()) return point.norm() > kFar * solid->rounding;
-  const Vec3 half = kFar * solid->half_extents;
+  if (solid->is_ball()) return point.norm() > kOutside * solid->rounding;
+  const Vec3 half = kOutside * solid->half_extents;
   return (point.array().abs() > half.array()).any();
 }
 

@@ -7,6 +7,16 @@ namespace substep {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Scenes and models.
+bool is_opened(const fs::path& path) {
+  const std::string end = path.extension().string();
+  return end == ".json" || end == ".xml" || end == ".urdf";
+}
+
+}  // namespace
+
 void FileBrowser::show(const fs::path& folder) {
   open_ = true;
   std::error_code error;
@@ -22,7 +32,7 @@ void FileBrowser::show(const fs::path& folder) {
     if (name.starts_with('.')) continue;
     std::error_code unreadable;  // a dangling link is not a folder
     const bool is_folder = list->is_directory(unreadable);
-    if (is_folder || list->path().extension() == ".json") found.push_back({name, is_folder});
+    if (is_folder || is_opened(list->path())) found.push_back({name, is_folder});
   }
   std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) {
     return a.folder != b.folder ? a.folder : a.name < b.name;

@@ -7,7 +7,7 @@
 
 namespace substep {
 
-/// A chooser for scene files if the system has none: lists the folders and scene files (*.json) of
+/// A chooser for scene files if the system has none: lists the folders and scene files and models (*.json, *.xml, *.urdf) of
 /// one folder at a time.
 class FileBrowser {
  public:

@@ -9,13 +9,12 @@
 #include "app/ui/card.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
-#include "core/io/scene_reader.hpp"
 
 namespace substep::ui {
 namespace {
 
 void open(Lab& lab, FileBrowser& browser, const std::filesystem::path& file) {
-  if (lab.open_result(read_scene_file(file.string()), file.filename().string())) {
+  if (lab.open_file(file)) {
     browser.close();
   }
 }
@@ -59,7 +58,8 @@ void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser
         (entry.folder ? folder : file) = browser.folder() / entry.name;
       }
       if (browser.entries().empty()) {
-        label(look.fonts.small, look.theme->dim, "No folders and no scene files (*.json) here.");
+        label(look.fonts.small, look.theme->dim,
+              "No folders, scenes (*.json) or models (*.xml, *.urdf) here.");
       }
       if (!folder.empty()) browser.show(folder);
       if (!file.empty()) open(lab, browser, file);

@@ -179,7 +179,7 @@ std::optional<Json> parse_json(std::string_view text, Problems& problems) {
   }
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return fail("the file is empty");
   if (text[text.find_first_not_of(" \t\r\n")] == '<') {
-    return fail("is XML: scenes are JSON; MJCF and URDF are not read");
+    return fail("is XML: scenes are JSON; `substep import` makes one of a model in MJCF or URDF");
   }
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
     return fail(place(text, zero) + "a zero byte: this is not a text file");

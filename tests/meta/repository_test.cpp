@@ -69,6 +69,7 @@ const std::map<std::string, std::set<std::string>>& allowed_modules() {
     std::map<std::string, std::set<std::string>> map;
     for (auto it = order.begin(); it != order.end(); ++it) map[*it] = {order.begin(), it};
     map["io"] = {"math", "model", "forces", "sim", "lab"};
+    map["import"] = {"math", "model", "io"};
     return map;
   }();
   return allowed;

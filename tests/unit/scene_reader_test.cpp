@@ -58,7 +58,7 @@ TEST(SceneReader, RefusesTextsThatAreNoScenes) {
   EXPECT_EQ(only(""), "the file is empty");
   EXPECT_EQ(only(" \n\t"), "the file is empty");
   for (const char* xml : {"<mujoco/>", "\n <?xml version=\"1.0\"?><robot name=\"a\"></robot>"}) {
-    EXPECT_EQ(only(xml), "is XML: scenes are JSON; MJCF and URDF are not read");
+    EXPECT_EQ(only(xml), "is XML: scenes are JSON; `substep import` makes one of a model in MJCF or URDF");
   }
   EXPECT_EQ(only("[1, 2]"), "must be an object, not [1,2]");
   EXPECT_EQ(only("3"), "must be an object, not 3");

@@ -41,6 +41,16 @@ test("a dropped scene file runs, and is available at the next visit", async () =
   quiet(page);
 });
 
+test("a dropped model of another format is imported", async () => {
+  const robot = `<mujoco model="robot"><worldbody><body><joint/><geom size="0.1" pos="1 0 0"/></body>
+    </worldbody></mujoco>`;
+  await drop(page, "robot.xml", robot);
+  const report = await call(page, "report");
+  assert.deepEqual([report.scene, report.trouble], ["robot", ""]);
+  assert.match(report.notice, /^robot.xml: 0 approximated, 1 left out/);
+  quiet(page);
+});
+
 test("an invalid file is reported by name, and the run is unchanged", async () => {
   await call(page, "set", { scene: "bridge" });
   await call(page, "pause");
@@ -56,6 +66,7 @@ test("an invalid file is reported by name, and the run is unchanged", async () =
     "utf16.json": [0xff, 0xfe, 0x7b, 0x00],
     "cut.json": mine.slice(0, mine.length / 2),
     "zero.json": `${mine}\0${mine}`,
+    "model.xml": "<mujoco><worldbody></mujoco>",
     "mass.json": mine.replace(/"mass":\s*[0-9.]+/, '"mass":-1'),
   };
   for (const [name, bytes] of Object.entries(files)) {

@@ -242,6 +242,30 @@ TEST(OpenText, HugeBinaryOrBrokenFilesLeaveTheRunUnchanged) {
   }
 }
 
+TEST(OpenText, AModelOfAnotherFormatIsImported) {
+  Headless h;
+  const std::string model =
+      "<mujoco model='arm'><worldbody><body><joint armature='1'/><geom "
+      "size='0.1'/></body></worldbody>"
+      "</mujoco>";
+  ASSERT_TRUE(h.app->open_text(model, "arm.xml"));
+  EXPECT_EQ(h.app->session.scene().name, "arm");
+  EXPECT_EQ(h.app->notice.text,
+            "arm.xml: 0 approximated, 2 left out: `substep import --report` lists them");
+  ASSERT_FALSE(h.app->open_text("<mujoco>\n<", "broken.xml"));
+  EXPECT_EQ(h.app->trouble.title, "broken.xml was not loaded");
+  EXPECT_EQ(h.app->trouble.problems.front().pointer, "broken.xml:2");
+}
+
+TEST(OpenFile, AModelIsReadWithTheFilesBesideIt) {
+  Headless h;
+  ASSERT_TRUE(h.app->open_file(SUBSTEP_SOURCE_DIR "/tests/import/models/arm.xml"));
+  EXPECT_EQ(h.app->session.scene().name, "arm_of_many_parts");
+  ASSERT_TRUE(h.app->open_file(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json"));
+  EXPECT_EQ(h.app->session.scene().title, shipped("pendulum")->title);
+  EXPECT_FALSE(h.app->open_file(SUBSTEP_SOURCE_DIR "/tests/import/models/none.xml"));
+}
+
 TEST(ShareMenu, OffersOnlyWhatTheHostSupports) {
   Headless h;
   h.app->session.pause();

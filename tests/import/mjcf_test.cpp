@@ -7,6 +7,7 @@
 
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/model/validate.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/import/imported.hpp"

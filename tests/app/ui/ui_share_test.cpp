@@ -251,7 +251,7 @@ TEST(OpenText, AModelOfAnotherFormatIsImported) {
   ASSERT_TRUE(h.app->open_text(model, "arm.xml"));
   EXPECT_EQ(h.app->session.scene().name, "arm");
   EXPECT_EQ(h.app->notice.text,
-            "arm.xml: 0 approximated, 2 left out: `substep import --report` lists them");
+            "arm.xml: 0 approximated, 1 left out: `substep import --report` lists them");
   ASSERT_FALSE(h.app->open_text("<mujoco>\n<", "broken.xml"));
   EXPECT_EQ(h.app->trouble.title, "broken.xml was not loaded");
   EXPECT_EQ(h.app->trouble.problems.front().pointer, "broken.xml:2");

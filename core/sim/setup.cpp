@@ -54,6 +54,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   motions.resize(n);
   gaps.reserve(n_blocks);
   corrected.reserve(n_blocks);
+  openings.reserve(n_blocks);
   if (effects.gyroscopic) resize_torques(state);
 }
 

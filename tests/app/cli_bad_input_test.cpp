@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"UnknownCommand", "chek",
                 "no command is called chek (did you mean \"check\"?)\n"
                 "Commands: run sweep cost recommend doctor merge reproduce check exam hash scenes "
-                "generate map\n"},
+                "generate import map\n"},
         BadCall{"JobsZero", "sweep pendulum --jobs 0",
                 "--jobs: must be a whole number from 1 to 1024, not 0"},
         BadCall{"ErrorOfNoKind", "recommend pendulum --of speed",

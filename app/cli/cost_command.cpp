@@ -109,7 +109,9 @@ void add_cost(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CostOptions>();
   CLI::App* command = app.add_subcommand(
       "cost", "Print the cost of stages, rows, effects and the criterion in a scene");
-  command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
+  command
+      ->add_option("scene", options->scene,
+                   "name or file of a scene, or file of a model, - for standard input")
       ->required();
   command
       ->add_option("--json", options->json, "write the costs to this file, - for standard output")

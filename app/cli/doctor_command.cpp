@@ -347,7 +347,9 @@ void add_doctor(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = app.add_subcommand(
       "doctor", "Say which step a model needs, what sets it and what would help");
-  command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
+  command
+      ->add_option("scene", options->scene,
+                   "name or file of a scene, or file of a model, - for standard input")
       ->required();
   command->add_option("--step", options->step, "step of the engine [s] (default: the frame)")
       ->check(within(1e-5, 1.0));

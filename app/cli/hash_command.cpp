@@ -43,7 +43,9 @@ void add_hash(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<HashOptions>();
   CLI::App* command = app.add_subcommand(
       "hash", "Print the hash of a scene's state after a run: the same on every platform");
-  command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
+  command
+      ->add_option("scene", options->scene,
+                   "name or file of a scene, or file of a model, - for standard input")
       ->required();
   options->length.add_to(*command);
   options->settings.add_to(*command);

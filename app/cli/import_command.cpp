@@ -62,10 +62,6 @@ int import(const ImportCommandOptions& options) {
   for (const ImportNote& note : result.report.errors.notes) {
     complain("%s", to_string(note).c_str());
   }
-  if (result.scene == nullptr && !result.report.starts.empty()) {
-    complain("%s: the model has other starts, for --key: %s", name.c_str(),
-             result.report.starts.c_str());
-  }
   // If the scene goes to standard output, words go to stderr.
   const bool writes = !options.report || !options.out.empty();
   const std::string out = options.out.empty() ? "-" : options.out;

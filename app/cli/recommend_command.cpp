@@ -321,7 +321,8 @@ void add_recommend(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("recommend",
                                          "Run all methods on a scene and print the cheapest within "
                                          "an error, or the most accurate within a cost");
-  command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
+  command->add_option("scene", options->scene,
+                      "name or file of a scene, or file of a model, - for standard input");
   const CLI::Validator positive = within(1e-15, 1e15);
   CLI::Option* error = command
                            ->add_option("--error", options->error,

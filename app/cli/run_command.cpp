@@ -146,7 +146,8 @@ int run(const RunOptions& options) {
 void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Run a scene and print whether it holds");
-  command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
+  command->add_option("scene", options->scene,
+                      "name or file of a scene, or file of a model, - for standard input");
   options->length.add_to(*command);
   options->files.add_to(*command);
   command->add_option("--load", options->load, "factor on the mass of the heaviest body")

@@ -52,7 +52,7 @@ std::shared_ptr<const Scene> import_scene(const std::string& text, const std::st
     complain("%s", to_string(error).c_str());
   const ImportNotes& left_out = result.report.left_out;
   if (result.scene != nullptr && !left_out.empty()) {
-    say(stderr, "%s: a model; %zu of its parts are left out: see `substep import`\n",
+    say(stderr, "%s is a model; %zu parts are left out: see `substep import`\n",
         visible_text(name).c_str(), left_out.notes.size() + left_out.more);
   }
   return result.scene;

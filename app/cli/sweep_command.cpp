@@ -223,7 +223,9 @@ int sweep(const SweepOptions& options, const Shard& shard) {
 void add_sweep(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SweepOptions>();
   CLI::App* command = app.add_subcommand("sweep", "Run all methods on a scene: error against cost");
-  command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
+  command
+      ->add_option("scene", options->scene,
+                   "name or file of a scene, or file of a model, - for standard input")
       ->required();
   command->add_option("--out", options->out, "folder for results.jsonl and report.html")
       ->check(named());

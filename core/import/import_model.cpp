@@ -77,7 +77,7 @@ std::optional<Scene> read_json(std::string_view text, const std::string& name,
   }
   if (!json || !problems.empty()) return std::nullopt;
   if (!is_slrbs(*json)) {
-    report.errors.add(name, "is no model that is read: MJCF, URDF, or the JSON of SLRBS");
+    report.errors.add(name, "is not a model in MJCF, URDF or the JSON of SLRBS");
     return std::nullopt;
   }
   return read_slrbs(*json, options, report, places);
@@ -98,11 +98,17 @@ ImportResult import_model(std::string_view text, const std::string& name, const 
   const std::optional<Scene> scene = is_xml(text)
                                          ? read_xml(text, name, files, options, report, places)
                                          : read_json(text, name, options, report, places);
-  if (!scene || !report.errors.empty()) return result;
-  for (const Problem& problem : validate(*scene)) {
-    add_problem(problem, places, *scene, report.errors);
+  if (scene && report.errors.empty()) {
+    for (const Problem& problem : validate(*scene)) {
+      add_problem(problem, places, *scene, report.errors);
+    }
   }
-  if (report.errors.empty()) result.scene = std::make_shared<const Scene>(*scene);
+  if (scene && report.errors.empty()) {
+    result.scene = std::make_shared<const Scene>(*scene);
+  } else if (options.key.empty() && !report.starts.empty()) {
+    report.errors.add(name,
+                      "the model has other starts, for `substep import --key`: " + report.starts);
+  }
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace substep {
 /// A remark about a place of a model.
 struct ImportNote {
   std::string place;      // "cassie.xml:34", or "/joints/1" in JSON
-  std::string text;       // what it is, and what was done instead
+  std::string text;       // the part, and what stands for it if anything does
   std::size_t count = 1;  // places with the same text; `place` is the first
 };
 

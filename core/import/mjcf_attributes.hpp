@@ -63,7 +63,7 @@ struct MjcfContext {
   ImportReport& report;
 };
 
-/// The attributes of one element. Reports, when it goes, those that nobody asked for.
+/// The attributes of one element. The destructor reports those that were not read.
 class MjcfAttributes {
  public:
   /// @param childclass of the body that the element is in, or null

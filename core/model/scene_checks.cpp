@@ -1,4 +1,5 @@
 #include "core/model/scene_checks.hpp"
+#include "core/model/format_text.hpp"
 
 #include <algorithm>
 #include <map>
@@ -92,11 +93,10 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
         j.compliance >=
             scene.frame * scene.frame * (inverse_mass(scene, j.a) + inverse_mass(scene, j.b));
     if (!is_spring && gap > largest_gap(scene, j)) {
-      const std::string where = length ? "away from their distance" : "apart";
-      problems.push_back({pointer_to("/joints", i), "the anchors start " + number_text(gap) + " " +
-                                                        where + ", which is more than " +
-                                                        number_text(largest_gap(scene, j)) +
-                                                        " (m)"});
+      const char* where = length ? "away from their distance" : "apart";
+      problems.push_back({pointer_to("/joints", i),
+                          format_text("the anchors start %.6g %s, which is more than %.6g (m)", gap,
+                                      where, largest_gap(scene, j))});
     }
     const auto check_parallel = [&](const std::optional<JointAxes>& pair, const char* what) {
       if (!pair) return;

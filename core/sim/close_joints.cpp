@@ -37,9 +37,11 @@ double largest_gap(const Block& block, const double* gaps) {
 
 }  // namespace
 
-// Rows are linear: bodies that turn together at omega approach along those of the start, by dt/2
-// omega^2 times their distance, and joints that close at the end want them to. Contacts that touch
-// let them: those in a loop with joints would press against it with the inverse of their softness.
+// Bodies that turn together at omega move along chords: along the rows at the start of the sub-step
+// they approach each other by dt/2 omega^2 times their distance, and a rigid contact row forbids
+// it. Joints closed on the curved motion require it. In a loop of both, the contact's impulse would
+// be this speed divided by its softness. The bias of contacts that touch therefore allows the
+// approach that the curved motion makes up for.
 void Simulator::Impl::let_contacts_turn(const System& system) {
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];

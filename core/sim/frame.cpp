@@ -190,17 +190,16 @@ RotationBound Simulator::Impl::rotation_bound(std::span<const int> bodies) const
 double Simulator::Impl::watch_substep(const Substep& sub) {
   const bool watches = watches_substeps(settings);
   if (!watches && !decides_again(settings)) return 0.0;
-  double most = 0.0;
+  // Joints that do not close need half the length.
+  const double closing =
+      joints_open ? 16.0 * settings.alpha / (sub.planned_dt * sub.planned_dt) : 0.0;
+  double most = closing;
   for (const int body : schedule.part().moving) {
-    double r = 0.0;
-    if (joints_open) {  // half the length is needed; forces and velocities mean nothing
-      most = r = 16.0 * settings.alpha / (sub.planned_dt * sub.planned_dt);
-    } else {
-      r = rotation_bound({&body, 1}).r;
-      most = std::max(most, r);
-      if (watches) r = std::max(r, StiffnessStage::bound(*scene, {&body, 1}, state.k).r);
-    }
-    if (watches) r_in_frame[index(body)] = std::max(r_in_frame[index(body)], r);
+    const double r_rotation = rotation_bound({&body, 1}).r;
+    most = std::max(most, r_rotation);
+    if (!watches) continue;
+    double& r = r_in_frame[index(body)];
+    r = std::max({r, closing, r_rotation, StiffnessStage::bound(*scene, {&body, 1}, state.k).r});
   }
   return most;
 }

@@ -197,8 +197,7 @@ double Simulator::Impl::parting_speed(const Substep& sub, const Block& row) cons
   return std::min(-kPartRate * row.phi[0] / sub.dt, kFastestParting * width_of(row));
 }
 
-/// Of any body, in its radius per second, or radians per second. Overlaps next to a joint would
-/// turn bodies fast to part slowly.
+/// Largest speed of a body by the shift: linear in its radii, or angular in radians [1/s].
 double Simulator::Impl::fastest_shift(const Substep& sub) const {
   double fastest = 0.0;
   for (const int body : sub.part->moving) {
@@ -244,6 +243,7 @@ bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
   system.contacts_yield = true;
   copy(shift, u_star);
   SolveReport solved = by.find_velocities(system, sub.settings);
+  // Next to a joint, a small distance at the contact is a large angle.
   const double fastest = any_parts ? fastest_shift(sub) : 0.0;
   if (fastest > kFastestShift && solved.status < SolveStatus::kUnsolved) {
     for (std::size_t i = 0; i < parting.size(); ++i) {

@@ -82,6 +82,20 @@ TEST(CommandLine, CsvHasTheColumnsOfTheScenesEffects) {
   EXPECT_NE(header("bridge").find("contact_rows,friction_rows,"), std::string::npos);
 }
 
+TEST(CommandLine, AModelWorksWhereASceneDoes) {
+  const std::string model = "\"" SUBSTEP_SOURCE_DIR "/tests/import/models/arm.xml\"";
+  const fs::path scene = folder() / "arm.json";
+  ASSERT_EQ(substep("import " + model + " --out \"" + scene.string() + "\"").exit_code, 0);
+  const Outcome of_scene = substep("hash \"" + scene.string() + "\" --frames 3");
+  ASSERT_EQ(of_scene.exit_code, 0) << of_scene.err;
+  const Outcome of_model = substep("hash " + model + " --frames 3");
+  EXPECT_EQ(of_model.exit_code, 0) << of_model.err;
+  EXPECT_EQ(of_model.out, of_scene.out);
+  EXPECT_NE(of_model.err.find("parts are left out: see `substep import`"), std::string::npos)
+      << of_model.err;
+  EXPECT_EQ(substep("doctor " + model + " --no-runs").err.find("Exit"), std::string::npos);
+}
+
 TEST(CommandLine, CsvHasEveryFrameInFullPrecision) {
   const fs::path csv = folder() / "run.csv";
   const Outcome run = substep("run swinging_box --frames 5 --csv \"" + csv.string() + "\"");

@@ -149,6 +149,20 @@ TEST(Mjcf, AKeyframeSetsPosesVelocitiesAndControls) {
             "model.xml: no keyframe is called 'near'; there are: 1, far");
 }
 
+// The range moves the joint, which opens the loop.
+TEST(Mjcf, OtherStartsAreNamedIfTheFirstIsNotConsistent) {
+  const auto result =
+      imported(world("<body name='a'><joint name='j' axis='0 1 0' range='1 2'/>"
+                     "<geom size='0.1' pos='1 0 0'/></body>",
+                     "",
+                     "<equality><connect body1='a' anchor='1 0 0'/></equality>"
+                     "<keyframe><key name='home' qpos='1.5'/></keyframe>"));
+  EXPECT_EQ(result.scene, nullptr);
+  EXPECT_NE(lines(result.report.errors).find("other starts, for `substep import --key`: home"),
+            std::string::npos)
+      << lines(result.report.errors);
+}
+
 TEST(Mjcf, ConstraintsCloseLoopsWhereTheModelHasThem) {
   const std::string two =
       "<body name='a' pos='0 0 1'><joint axis='0 1 0'/><geom type='capsule' fromto='0 0 0 1 0 0' "

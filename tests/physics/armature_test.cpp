@@ -18,6 +18,7 @@
 #include "tests/support/placed.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/steady_settings.hpp"
+#include "tests/support/two_rods.hpp"
 
 namespace substep::test {
 namespace {
@@ -261,13 +262,8 @@ TEST(Armature, OfMinimalCoordinatesIsAddedToTheMassMatrix) {
     last = rod;
   }
   const Scene scene = *builder.build();
-  const double I_1 = scene.bodies[0].inertia.z();
-  const double I_2 = scene.bodies[1].inertia.z();
   // Angles theta_1 and, relative to it, theta_2; at rest, level.
-  Eigen::Matrix2d M;
-  M << I_1 + 0.25 + I_2 + 2.0 * 2.25, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.25;
-  M(0, 0) += 0.2;
-  M(1, 1) += 0.5;
+  const Eigen::Matrix2d M = inertia_of_two_rods(scene);
   const Eigen::Vector2d pull(-kGravity * (0.5 + 2.0 * 1.5), -kGravity * 2.0 * 0.5);
   const Eigen::Vector2d acceleration = M.inverse() * pull;
   std::optional<JointTree> tree = JointTree::of(scene);
@@ -386,12 +382,7 @@ TEST(Armature, TakesPartInImpacts) {
         builder.scene().gravity.setZero();
         builder.scene().frame = 1e-3;
         const Scene scene = *builder.build();
-        const double I_1 = scene.bodies[0].inertia.z();
-        const double I_2 = scene.bodies[1].inertia.z();
-        Eigen::Matrix2d M;
-        M << I_1 + 0.25 + I_2 + 2.0 * 2.25, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.25;
-        M(0, 0) += 0.2;
-        M(1, 1) += 0.5;
+        const Eigen::Matrix2d M = inertia_of_two_rods(scene);
         const Eigen::Matrix2d inverse = M.inverse();
         const double first = -e * kRate;
         const double second = kBend - (1.0 + e) * kRate * inverse(1, 0) / inverse(0, 0);
@@ -431,12 +422,7 @@ TEST(Armature, TakesPartInImpactsThatSpread) {
   builder.scene().gravity.setZero();
   builder.scene().frame = 1e-3;
   const Scene scene = *builder.build();
-  const double I_1 = scene.bodies[0].inertia.z();
-  const double I_2 = scene.bodies[1].inertia.z();
-  Eigen::Matrix2d M;
-  M << I_1 + 0.25 + I_2 + 2.0 * 2.25, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.25;
-  M(0, 0) += 0.2;
-  M(1, 1) += 0.5;
+  const Eigen::Matrix2d M = inertia_of_two_rods(scene);
   const Eigen::Matrix2d inverse = M.inverse();
   Eigen::Vector2d rate(kRate, 0.0);
   for (int i = 0; rate.maxCoeff() > 1e-6; ++i) {

@@ -399,6 +399,38 @@ TEST(SweptContacts, ContinueBitForBit) {
   }
 }
 
+// A ball on an arm rests on a rod that falls with it, as on a cam. Joints close on the curved
+// motion, and the contact must let both turn.
+TEST(SweptContacts, ABallOnAFallingRodKeepsItsEnergy) {
+  constexpr double kRadius = 0.1;
+  constexpr double kHalfHeight = 0.05;  // of the rod
+  constexpr double kRate = -3.0;        // [rad/s]
+  SceneBuilder builder("cam");
+  const int ball = builder.add_body(Sphere{kRadius}, 1.0, {1.0, 0.0, 0.0});
+  const int rod =
+      builder.add_body(Box{{1.0, kHalfHeight, 0.1}}, 1.0, {1.0, -kRadius - kHalfHeight, 0.0});
+  builder.add_hinge(ball, kWorld, Vec3::Zero(), Vec3::UnitZ());
+  builder.add_hinge(rod, kWorld, {0.0, -kRadius - kHalfHeight, 0.0}, Vec3::UnitZ());
+  for (const int body : {ball, rod}) {
+    builder.body(body).friction = 0.0;
+    builder.body(body).velocity = {0.0, kRate, 0.0};
+    builder.body(body).angular_velocity = {0.0, 0.0, kRate};
+  }
+  Settings settings = steady();
+  settings.mode = Mode::kConst;
+  settings.n = 4;
+  Simulator simulator = simulator_of(shared(*builder.build()), settings);
+  const double start = simulator.observe().energy;
+  double change = 0.0;
+  double kinetic = 0.0;
+  for (int i = 0; i < 24; ++i) {
+    const FrameReport report = simulator.step();
+    keep_largest(change, std::abs(report.energy - start));
+    keep_largest(kinetic, report.kinetic);
+  }
+  EXPECT_LT(change, 2e-4 * kinetic);
+}
+
 // With both solved for, a joint does not push a body into a contact.
 TEST(SweptContacts, HoldTogetherWithExactJoints) {
   SceneBuilder builder("pendulum_on_floor");

@@ -8,6 +8,7 @@
 
 #include "core/lab/linear_model.hpp"
 #include "core/model/scene_builder.hpp"
+#include "tests/support/two_rods.hpp"
 
 namespace substep {
 namespace {
@@ -139,12 +140,7 @@ TEST(LinearModel, OfADriveHasTheInertiaOfItsCoordinate) {
   }
   builder.scene().gravity.setZero();
   const Scene scene = *builder.build();
-  const double I_1 = scene.bodies[0].inertia.z();
-  const double I_2 = scene.bodies[1].inertia.z();
-  Eigen::Matrix2d M;
-  M << I_1 + 0.25 + I_2 + 2.0 * 2.25, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.75, I_2 + 2.0 * 0.25;
-  M(0, 0) += 0.2;
-  M(1, 1) += 0.5;
+  const Eigen::Matrix2d M = test::inertia_of_two_rods(scene);
   const Eigen::Matrix2d inverse = M.inverse();
   const LinearModel model = model_of(scene);
   ASSERT_EQ(model.size(), 2);

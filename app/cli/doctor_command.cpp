@@ -157,13 +157,26 @@ class DoctorText {
   void print_drives(std::FILE* out) const {
     if (d_.drives.empty()) return;
     const bool held = d_.question.held > 0;
-    say(out, "\n%-20s %10s %12s %12s %12s %12s %12s\n", "drive", "inertia", "explicit",
-        "damping imp.", held ? "held" : "", held ? "of it, delay" : "", "armature");
+    std::size_t longest = 0;
     for (const DriveLimit& drive : d_.drives) {
-      say(out, "%-20s %10.3g %12s %12s %12s %12s %12.3g\n", joint(drive.joint).c_str(),
-          drive.inertia, time_text(drive.explicit_step).c_str(),
-          time_text(drive.damped_step).c_str(), held ? time_text(drive.held_step).c_str() : "",
-          held ? time_text(drive.delay_step).c_str() : "", drive.armature);
+      longest = std::max(longest, joint(drive.joint).size());
+    }
+    const int width = static_cast<int>(longest);
+    say(out,
+        "\nDrives: inertia and the armature that is missing, in kg m^2 (hinge) or kg (slide); "
+        "largest step\n%-*s %9s %9s %9s %16s",
+        width, "", "inertia", "armature", "explicit", "implicit damping");
+    if (held) say(out, " %9s %9s", "held", "by delay");
+    say(out, "\n");
+    for (const DriveLimit& drive : d_.drives) {
+      say(out, "%-*s %9.3g %9.3g %9s %16s", width, joint(drive.joint).c_str(), drive.inertia,
+          drive.armature, time_text(drive.explicit_step).c_str(),
+          time_text(drive.damped_step).c_str());
+      if (held) {
+        say(out, " %9s %9s", time_text(drive.held_step).c_str(),
+            time_text(drive.delay_step).c_str());
+      }
+      say(out, "\n");
     }
     if (held) {
       say(out,

@@ -622,10 +622,10 @@ std::vector<Finding> static_findings(const Scene& scene, const State& state) {
   }
   for (const LinearModel& model : LinearModel::of(scene, state)) {
     if (model.redundant() == 0) continue;
-    warn(
-        format_text("%d rows of joints follow from others in the group of %s: its forces are not "
-                    "unique, the smallest were taken",
-                    model.redundant(), named_body(scene, model.bodies()[0]).c_str()));
+    warn(format_text(
+        "redundant joint rows in the group of %s: %d; its joint forces are not unique, and "
+        "those of least norm are used",
+        named_body(scene, model.bodies()[0]).c_str(), model.redundant()));
   }
   return findings;
 }

@@ -49,9 +49,9 @@ struct GroupFacts {
 /// One drive at the start, its other joints free.
 struct DriveLimit {
   int joint = -1;
-  double inertia = 0.0;  // of its coordinate, armatures included [kg m^2 or kg]
-  double stiffness = 0.0;
-  double damping = 0.0;
+  double inertia = 0.0;             // of its coordinate, armatures included [kg m^2 or kg]
+  double stiffness = 0.0;           // [N m/rad or N/m]
+  double damping = 0.0;             // [N m s/rad or N s/m]
   double explicit_step = kNoLimit;  // stiffness and damping explicit [s]
   double damped_step = kNoLimit;    // damping implicit [s]
   double held_step = kNoLimit;      // as a law held over DoctorQuestion::held steps [s]

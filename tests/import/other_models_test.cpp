@@ -124,7 +124,7 @@ TEST(Slrbs, SaysWhatIsWrongAndWhere) {
                            "body1_id": 5})")),
             "/joints/0/body1_id: no body has this id");
   EXPECT_EQ(error_of("{}"),
-            "model.xml: is no model that is read: MJCF, URDF, or the JSON of SLRBS");
+            "model.xml: is not a model in MJCF, URDF or the JSON of SLRBS");
 }
 
 TEST(ImportModel, KnowsAModelByItsContent) {

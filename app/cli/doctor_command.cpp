@@ -178,6 +178,7 @@ class DoctorText {
       }
       say(out, "\n");
     }
+    if (const char* note = d_.question.engine->note; *note != '\0') say(out, "  %s\n", note);
     if (held) {
       say(out,
           "  A law held over %d steps needs damping above stiffness times step times %g; no "

@@ -380,13 +380,32 @@ class Doctor {
     Diagnosis& d = diagnosis_;
     if (!(limit.step < d.step)) return;
     d.step = limit.step;
-    d.by_drive = !limit.drives.empty() && limit.drives[0].share > 0.5;
+    double by_drives = 0.0;
+    for (const LinearModel::Share& drive : limit.drives) by_drives += drive.share;
+    d.by_drive = by_drives > 0.5;
     if (d.by_drive) {
-      d.limited_by = "the drive of " + named_joint(*scene_, limit.drives[0].index) + when;
+      d.limited_by = drives_text(limit.drives) + when;
     } else if (!limit.joints.empty()) {
       d.limited_by =
           "the geometric stiffness of " + named_joint(*scene_, limit.joints[0].index) + when;
     }
+  }
+
+  /// The drives that make up half of the stiffness in a mode. @param drives largest first
+  [[nodiscard]] std::string drives_text(const std::vector<LinearModel::Share>& drives) const {
+    std::vector<std::string> names;
+    double sum = 0.0;
+    for (const LinearModel::Share& drive : drives) {
+      if (sum > 0.5) break;
+      names.push_back(named_joint(*scene_, drive.index));
+      sum += drive.share;
+    }
+    if (names.size() == 1) return "the drive of " + names[0];
+    std::string text = "the drives of " + names[0];
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      text += (i + 1 < names.size() ? ", " : " and ") + names[i];
+    }
+    return text + " together";
   }
 
   void set_limit() {

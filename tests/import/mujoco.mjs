@@ -115,6 +115,29 @@ export class Oracle {
       ...combine(solids.filter(({ mass }) => mass > 0)),
     }));
   }
+  /** @param integrator its name in MuJoCo, in capital letters */
+  integrate(integrator) {
+    this.model.opt.integrator = mujoco.mjtIntegrator[`mjINT_${integrator}`].value;
+  }
+  /** Begins again with this step [s]. */
+  restart(step) {
+    this.model.opt.timestep = step;
+    mujoco.mj_resetData(this.model, this.data);
+    mujoco.mj_forward(this.model, this.data);
+  }
+  /** @returns the largest speed of a coordinate in these seconds; infinite if MuJoCo gives up. */
+  peakSpeed(seconds) {
+    const { model, data } = this;
+    let most = 0;
+    for (const steps = Math.ceil(seconds / model.opt.timestep); most < 1e6;) {
+      const time = data.time;
+      mujoco.mj_step(model, data);
+      if (data.time < time) return Infinity; // it has reset itself
+      for (const speed of data.qvel) most = Math.max(most, Math.abs(speed));
+      if (data.time >= (steps - 0.5) * model.opt.timestep) return most;
+    }
+    return Infinity;
+  }
   /** Frees its memory. */
   free() {
     this.data.delete();
@@ -122,7 +145,7 @@ export class Oracle {
   }
   /** Runge-Kutta of fourth order with these many steps a second. */
   advance(seconds, rate) {
-    this.model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4.value;
+    this.integrate("RK4");
     this.model.opt.timestep = 1 / rate;
     const steps = Math.round(seconds * rate);
     for (let i = 0; i < steps; ++i) mujoco.mj_step(this.model, this.data);

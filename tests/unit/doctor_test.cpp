@@ -131,6 +131,23 @@ TEST(Doctor, TellsDrivesByTheirEngine) {
   EXPECT_EQ(at_start(*with.build(), asked, "mujoco").verdict, Diagnosis::Verdict::kHolds);
 }
 
+// A mode of several drives, none of which has half of its stiffness, is limited by drives.
+TEST(Doctor, NamesDrivesThatLimitTogether) {
+  SceneBuilder builder("three bodies on slides of a light one");
+  const int hub = builder.add_body(Sphere{0.1}, 0.1, Vec3::Zero());
+  for (int i = 0; i < 3; ++i) {
+    const int body = builder.add_body(Sphere{0.1}, 1.0, {0.0, 1.0 + i, 0.0});
+    builder.drive(builder.add_prismatic(body, hub, builder.body(body).position, Vec3::UnitX()),
+                  {.stiffness = 1e5 + 1e3 * i});
+  }
+  const Diagnosis d = at_start(*builder.build(), 1.0 / 60.0, "mujoco");
+  ASSERT_EQ(d.start.size(), 1U);
+  EXPECT_LT(d.start[0].drives[0].share, 0.5) << "else one is named";
+  EXPECT_TRUE(d.by_drive);
+  EXPECT_EQ(d.limited_by, "the drives of joint_2 and joint_1 together at the start");
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::kFails);
+}
+
 // kd > kp h (n - 1)/2, whatever the armature.
 TEST(Doctor, FindsAHeldLawWithTooLittleDamping) {
   for (const double armature : {1e-3, 1.0, 1e3}) {

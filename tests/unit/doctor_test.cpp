@@ -135,9 +135,11 @@ TEST(Doctor, TellsDrivesByTheirEngine) {
 TEST(Doctor, NamesDrivesThatLimitTogether) {
   SceneBuilder builder("three bodies on slides of a light one");
   const int hub = builder.add_body(Sphere{0.1}, 0.1, Vec3::Zero());
+  builder.body(hub).collides = false;
   for (int i = 0; i < 3; ++i) {
-    const int body = builder.add_body(Sphere{0.1}, 1.0, {0.0, 1.0 + i, 0.0});
-    builder.drive(builder.add_prismatic(body, hub, builder.body(body).position, Vec3::UnitX()),
+    const int body = builder.add_body(Sphere{0.1}, 1.0, Vec3::Zero());
+    builder.body(body).collides = false;
+    builder.drive(builder.add_prismatic(body, hub, Vec3::Zero(), Vec3::UnitX()),
                   {.stiffness = 1e5 + 1e3 * i});
   }
   const Diagnosis d = at_start(*builder.build(), 1.0 / 60.0, "mujoco");

@@ -110,7 +110,7 @@ class DoctorText {
             "motion.\n");
       }
       if (d_.at_step->holds && d_.step < d_.question.step) {
-        say(out, d_.by_drive ? "  Its drives are substep's, which are implicit.\n"
+        say(out, d_.by_drive ? "  Drives and springs of substep are implicit.\n"
                              : "  It holds above the largest step: for these seconds, not for "
                                "certain.\n");
       }
@@ -125,7 +125,7 @@ class DoctorText {
 
   void print_limit(std::FILE* out) const {
     if (!std::isfinite(d_.step)) {
-      say(out, "No limit was found: no joint force resists, and no drive is explicit.\n");
+      say(out, "No limit was found: no joint force resists, and no drive or spring is explicit.\n");
       return;
     }
     say(out, "Largest step: %s, %.2g of the asked one; set by %s.\n", time_text(d_.step).c_str(),
@@ -144,7 +144,7 @@ class DoctorText {
     const auto of_joint = [this](int i) { return joint(i); };
     const auto of_body = [this](int i) { return body(i); };
     if (const std::string text = shares_text(limit.drives, of_joint); !text.empty()) {
-      say(out, "  drives in its stiffness: %s\n", text.c_str());
+      say(out, "  drives and springs in its stiffness: %s\n", text.c_str());
     }
     if (const std::string text = shares_text(limit.joints, of_joint); !text.empty()) {
       say(out, "  joints in its geometric stiffness: %s\n", text.c_str());
@@ -163,7 +163,8 @@ class DoctorText {
     }
     const int width = static_cast<int>(longest);
     say(out,
-        "\nDrives: inertia and the armature that is missing, in kg m^2 (hinge) or kg (slide); "
+        "\nDrives and springs: inertia and the armature that is missing, in kg m^2 (hinge) or kg "
+        "(slide); "
         "largest step\n%-*s %9s %9s %9s %16s",
         width, "", "inertia", "armature", "explicit", "implicit damping");
     if (held) say(out, " %9s %9s", "held", "by delay");
@@ -178,7 +179,6 @@ class DoctorText {
       }
       say(out, "\n");
     }
-    if (const char* note = d_.question.engine->note; *note != '\0') say(out, "  %s\n", note);
     if (held) {
       say(out,
           "  A law held over %d steps needs damping above stiffness times step times %g; no "
@@ -223,7 +223,8 @@ class DoctorText {
       double of = step;
       if (&engine != d_.question.engine) {
         const bool same = engine.stiffness == d_.question.engine->stiffness &&
-                          engine.damping == d_.question.engine->damping;
+                          engine.damping == d_.question.engine->damping &&
+                          engine.damps_springs == d_.question.engine->damps_springs;
         if (!same && !d_.drives.empty()) continue;  // another question
       }
       of = std::min(of, scene_.frame);

@@ -24,6 +24,7 @@ Scene edition_of(const Scene& scene, const State& state, const Settings& setting
             if (!effects.limits) own.limit.reset();
             if (!effects.motors) own.motor.reset();
             if (!effects.drives) own.drive.reset();
+            if (!effects.springs) own.spring.reset();
             if (!effects.joint_friction) own.friction.reset();
             if (!effects.armature) own.armature.reset();
             if (own.limit && !effects.restitution) own.limit->restitution = 0.0;

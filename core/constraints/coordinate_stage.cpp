@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/constraints/contact.hpp"
 #include "core/constraints/joint_rows.hpp"
@@ -87,9 +88,19 @@ CoordinateStage::CoordinateStage(const Scene& scene) : scene_(scene) {
         add(Acts::kFriction, Rows::geometry(*own));
       }
       if (armature > 0.0) add(Acts::kArmature, Rows::geometry(*own));
+      if (own->spring && scene.effects.springs) {
+        add(Acts::kSpring, Rows::geometry(*own, *own->spring));
+        has_springs_ = true;
+      }
     });
   }
   first_.push_back(placed_.size());
+}
+
+double coordinate_of(const Block& row) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  if (!row.seeded || row.position_rows > 0) return row.phi[0];
+  return row.phi[0] + kTurn * std::round((row.elastic[0] - row.phi[0]) / kTurn);
 }
 
 int CoordinateStage::joint_of(std::uint64_t id) {
@@ -104,8 +115,11 @@ const Motor& CoordinateStage::motor(const Block& row) const {
   return *motor_of(scene_.joints[index(joint_of(row.id))]);
 }
 
-const Drive& CoordinateStage::drive(const Block& row) const {
-  return *drive_of(scene_.joints[index(joint_of(row.id))]);
+Drive CoordinateStage::drive(const Block& row) const {
+  const Joint& joint = scene_.joints[index(joint_of(row.id))];
+  if (!is_joint_spring(row)) return *drive_of(joint);
+  const Spring& spring = *spring_of(joint);
+  return {.target = spring.rest, .stiffness = spring.stiffness, .damping = spring.damping};
 }
 
 double CoordinateStage::friction(const Block& row) const {
@@ -147,7 +161,9 @@ Block& CoordinateStage::place(const Placed& placed, const State& state, std::spa
     Rows::constants(block);
     Rows::rows(placed.geometry, side(joint.a), side(joint.b), block);
   });
-  if (!placed.is_limit() && placed.acts != Acts::kDrive) block.phi[0] = 0.0;  // it has a speed only
+  const bool has_position =
+      placed.is_limit() || placed.acts == Acts::kDrive || placed.acts == Acts::kSpring;
+  if (!has_position) block.phi[0] = 0.0;  // it has a speed only
   if (placed.is_limit()) {
     block.lo = 0.0;
     block.hi = kUnbounded;
@@ -169,6 +185,28 @@ void CoordinateStage::append(const Part& part, const State& state, std::span<con
                             : kMargin * placed.width + 2.0 * largest_change(block, state.u, dt);
     if (block.phi[0] > near) blocks.keep(placed.row);
   });
+}
+
+double CoordinateStage::elastic(const State& state, std::span<const Mat3> R_WB) const {
+  double energy = 0.0;
+  if (!has_springs_) return energy;
+  Block row;
+  std::size_t next = 0;  // forces are mostly in the order of the rows
+  for (const Placed& placed : placed_) {
+    if (placed.acts != Acts::kSpring) continue;
+    place(placed, state, R_WB, row);
+    for (std::size_t i = 0; i < state.forces.size(); ++i, ++next) {
+      if (next >= state.forces.size()) next = 0;
+      if (state.forces[next].id != placed.id) continue;
+      row.seeded = true;  // its full turns are known
+      row.elastic[0] = state.forces[next].elastic[0];
+      break;
+    }
+    const Spring& spring = *spring_of(scene_.joints[index(placed.joint)]);
+    const double stretch = coordinate_of(row) - spring.rest;
+    energy += 0.5 * spring.stiffness * stretch * stretch;
+  }
+  return energy;
 }
 
 SweptContacts::Found CoordinateStage::sweep(const SweptContacts::Sweep& sweep, std::size_t first,

@@ -11,12 +11,12 @@
 
 namespace substep {
 
-/// Limits, motors, drives, dry friction and armatures of joints: one row for each that acts, on a
-/// coordinate of CoordinateTable.
+/// Limits, motors, drives, springs, dry friction and armatures of joints: one row for each that
+/// acts, on a coordinate of CoordinateTable.
 class CoordinateStage {
  public:
   /// The parts of a joint that have rows of their own.
-  enum class Acts : std::uint8_t { kLower, kUpper, kMotor, kDrive, kFriction, kArmature };
+  enum class Acts : std::uint8_t { kLower, kUpper, kMotor, kDrive, kFriction, kArmature, kSpring };
 
   /// Those whose effect is enabled.
   explicit CoordinateStage(const Scene& scene);
@@ -24,8 +24,8 @@ class CoordinateStage {
   [[nodiscard]] std::size_t size() const { return placed_.size(); }
   [[nodiscard]] bool has_limits() const { return has_limits_; }
 
-  /// Appends friction, armatures, motors, drives, whose phi is the coordinate, and limits that are
-  /// closed or may close.
+  /// Appends friction, armatures, motors, drives and springs, whose phi is the coordinate, and
+  /// limits that are closed or may close.
   /// @param dt the sub-step [s]  @param touching only limits that are closed: sweep() finds others
   void append(const Part& part, const State& state, std::span<const Mat3> R_WB, double dt,
               bool touching, Blocks& blocks);
@@ -35,12 +35,16 @@ class CoordinateStage {
   /// As SweptContacts::earliest().
   [[nodiscard]] double earliest() const { return earliest_; }
 
-  /// The motor, the drive or the largest friction [N m or N] of a row.
+  /// The motor, the drive or the largest friction [N m or N] of a row. A spring is a drive without
+  /// bounds towards its rest.
   [[nodiscard]] const Motor& motor(const Block& row) const;
-  [[nodiscard]] const Drive& drive(const Block& row) const;
+  [[nodiscard]] Drive drive(const Block& row) const;
   [[nodiscard]] double friction(const Block& row) const;
   /// In place of the half width of a shape: the measure of the tolerances of a limit [rad or m].
   [[nodiscard]] double width_of(const Block& row) const;
+
+  /// Energy of the springs: the sum of k (x - rest)^2/2 [J].
+  [[nodiscard]] double elastic(const State& state, std::span<const Mat3> R_WB) const;
 
   /// Whether a block's id is one of these rows, which part of its joint it is, and the joint.
   [[nodiscard]] static bool is_id(std::uint64_t id) { return id >> 62U == 1U; }
@@ -69,12 +73,22 @@ class CoordinateStage {
   std::vector<std::size_t> first_;  // per joint: its first one; one more at the end
   Block scratch_;
   bool has_limits_ = false;
+  bool has_springs_ = false;
   double earliest_ = 0.0;
 };
 
-/// True for the row of a drive.
+/// The coordinate of a drive's or a spring's row [rad or m], from that of the last sub-step in
+/// Block::elastic if it is known: an angle is continuous, and counts full turns.
+double coordinate_of(const Block& row);
+
+/// True for the row of a spring.
+inline bool is_joint_spring(const Block& row) {
+  return row.is_coordinate() && CoordinateStage::acts(row.id) == CoordinateStage::Acts::kSpring;
+}
+/// True for the row of a drive or a spring.
 inline bool is_drive(const Block& row) {
-  return row.is_coordinate() && CoordinateStage::acts(row.id) == CoordinateStage::Acts::kDrive;
+  return is_joint_spring(row) ||
+         (row.is_coordinate() && CoordinateStage::acts(row.id) == CoordinateStage::Acts::kDrive);
 }
 /// True for the row of an armature.
 inline bool is_armature(const Block& row) {

@@ -30,11 +30,12 @@ struct HingeAngle {
   }
 
   /// phi = theta, from -pi to pi.
-  static JointGeometry geometry(const HingeJoint& hinge, const AngularDrive& drive) {
+  /// @param zero an AngularDrive or an AngularSpring
+  static JointGeometry geometry(const HingeJoint& hinge, const auto& zero) {
     JointGeometry geometry;
     geometry.u = hinge.axis_a;
-    geometry.v1 = drive.across_b;
-    geometry.w = drive.across_a;
+    geometry.v1 = zero.across_b;
+    geometry.w = zero.across_a;
     return geometry;
   }
 

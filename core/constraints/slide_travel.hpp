@@ -24,7 +24,7 @@ struct SlideTravel {
   }
 
   /// phi = v . d
-  static JointGeometry geometry(const PrismaticJoint& slide, const LinearDrive& /*drive*/) {
+  static JointGeometry geometry(const PrismaticJoint& slide, const auto& /*given*/) {
     return geometry(slide);
   }
 

@@ -384,6 +384,7 @@ class Assembly {
     name_joint(i, joint);
     ++stacks_[is_hinge ? "hinges" : "slides"];
     if (joint.limit) add_limit(i, joint, is_hinge);
+    add_spring(i, joint);
     add_drive(i, joint);
     if (joint.friction > 0.0) builder_.rub(i, joint.friction);
     if (joint.armature > 0.0) builder_.add_armature(i, joint.armature);
@@ -399,27 +400,17 @@ class Assembly {
     builder_.limit(i, joint.limit->lower - joint.start, joint.limit->upper - joint.start);
   }
 
-  /// Spring, damper and actuator are one drive.
+  void add_spring(int i, const LinkJoint& joint) {
+    if (joint.stiffness == 0.0 && joint.damping == 0.0) return;
+    const double rest = joint.stiffness > 0.0 ? joint.rest - joint.start : 0.0;
+    builder_.add_spring(i, {rest, joint.stiffness, joint.damping});
+  }
+
   void add_drive(int i, const LinkJoint& joint) {
-    Drive sum;
-    const Drive actuator = joint.drive.value_or(Drive{});
-    sum.stiffness = joint.stiffness + actuator.stiffness;
-    sum.damping = joint.damping + actuator.damping;
-    if (sum.stiffness == 0.0 && sum.damping == 0.0) return;
-    if (sum.stiffness > 0.0) {
-      sum.target =
-          (joint.stiffness * joint.rest + actuator.stiffness * actuator.target) / sum.stiffness -
-          joint.start;
-    }
-    if (sum.damping > 0.0) sum.velocity = actuator.damping * actuator.velocity / sum.damping;
-    sum.effort = actuator.effort;
-    if (sum.effort && (joint.stiffness > 0.0 || joint.damping > 0.0)) {
-      report_.approximated.add(
-          joint.place,
-          "the largest force of an actuator bounds the spring and the damper of its "
-          "joint too");
-    }
-    builder_.drive(i, sum);
+    if (!joint.drive || (joint.drive->stiffness == 0.0 && joint.drive->damping == 0.0)) return;
+    Drive drive = *joint.drive;
+    if (drive.stiffness > 0.0) drive.target -= joint.start;
+    builder_.drive(i, drive);
   }
 
   /// Parts of a joint whose coordinate the scene does not have.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/lab/experiment.hpp"
@@ -35,20 +36,30 @@ double known(double step) {
   return step < kLongest ? step : kNoLimit;
 }
 
-/// A system of a group, with drives as the question has them.
+/// What of a drive or a spring is explicit.
+struct Explicit {
+  bool stiffness = false;
+  bool damping = false;
+};
+
+/// A law outside the engine is held, and so explicit; springs are in the engine.
+Explicit explicit_of(const LinearModel::DriveTerm& drive, const DoctorQuestion& question) {
+  const Engine& engine = *question.engine;
+  if (question.held > 0 && !drive.passive) return {true, true};
+  return {engine.stiffness == Treated::kExplicit,
+          engine.damping == Treated::kExplicit && !(drive.passive && engine.damps_springs)};
+}
+
+/// A system of a group, with drives and springs as the question has them.
 LinearSystem system_of(const LinearModel& model, const DoctorQuestion& question) {
   LinearSystem system{model.mass(), model.geometric() - model.springs(), {}};
-  const bool outside = question.held > 0;
-  const Treated stiffness = outside ? Treated::kExplicit : question.engine->stiffness;
-  const Treated damping = outside ? Treated::kExplicit : question.engine->damping;
   for (const LinearModel::DriveTerm& drive : model.drives()) {
     const Eigen::MatrixXd square = drive.coordinate * drive.coordinate.transpose();
-    const double k = stiffness == Treated::kExplicit ? drive.stiffness : -drive.stiffness;
-    const double d = damping == Treated::kExplicit ? -drive.damping : drive.damping;
-    system.stiffness += k * square;
+    const Explicit is = explicit_of(drive, question);
+    system.stiffness += (is.stiffness ? drive.stiffness : -drive.stiffness) * square;
     if (system.damping.size() == 0)
       system.damping = Eigen::MatrixXd::Zero(model.size(), model.size());
-    system.damping += d * square;
+    system.damping += (is.damping ? -drive.damping : drive.damping) * square;
   }
   return system;
 }
@@ -69,18 +80,18 @@ GroupLimit limit_of(const LinearModel& model, std::size_t group, double time,
   const double h = all.mode.size() > 0 ? all.step : geometric.step;
   limit.bodies = model.bodies_of(mode);
   limit.joints = model.joints_of(mode);
-  const bool outside = question.held > 0;
   double sum = h * h * mode.dot(model.geometric() * mode);
   for (const LinearModel::DriveTerm& drive : model.drives()) {
     const double moved = std::pow(drive.coordinate.dot(mode), 2);
     double by = 0.0;
-    if (outside || question.engine->stiffness == Treated::kExplicit) {
-      by += h * h * drive.stiffness * moved;
+    const Explicit is = explicit_of(drive, question);
+    if (is.stiffness) by += h * h * drive.stiffness * moved;
+    if (is.damping) by += 2.0 * h * drive.damping * moved;
+    if (!limit.drives.empty() && limit.drives.back().index == drive.joint) {
+      limit.drives.back().share += by;
+    } else {
+      limit.drives.push_back({drive.joint, by});
     }
-    if (outside || question.engine->damping == Treated::kExplicit) {
-      by += 2.0 * h * drive.damping * moved;
-    }
-    limit.drives.push_back({drive.joint, by});
     sum += by;
   }
   for (auto& share : limit.drives) share.share /= sum;
@@ -98,31 +109,36 @@ std::vector<GroupLimit> limits_of(const std::vector<LinearModel>& models, double
   return limits;
 }
 
-DriveLimit drive_limit(const LinearModel::DriveTerm& drive, const DoctorQuestion& question) {
-  DriveLimit limit{drive.joint, drive.inertia, drive.stiffness, drive.damping};
-  if (!std::isfinite(drive.inertia)) return limit;  // its joint cannot move
-  const OneCoordinate bare{drive.inertia, drive.stiffness, drive.damping, 0.0};
-  const OneCoordinate damped{drive.inertia, drive.stiffness, 0.0, drive.damping};
-  limit.explicit_step = largest_step(bare);
-  limit.damped_step = largest_step(damped);
-  const int held = std::max(question.held, 1);
-  const HeldDrive law{drive.inertia, drive.stiffness, drive.damping, held};
-  limit.held_step = largest_step_of_effort(law);
-  limit.delay_step = largest_step_of_delay(law);
-  const double wanted = kSafeMargin * question.step;
-  OneCoordinate asked = bare;
-  if (question.held > 0) {
-    limit.step = std::min(limit.held_step, limit.delay_step);
-    asked = {drive.inertia, held * drive.stiffness, held * drive.damping, 0.0};
-  } else if (question.engine->stiffness == Treated::kImplicit) {
-    return limit;  // no limit
-  } else if (question.engine->damping == Treated::kImplicit) {
-    limit.step = limit.damped_step;
-    asked = damped;
-  } else {
-    limit.step = limit.explicit_step;
+/// @param terms of one joint: its drive, its spring or both
+DriveLimit drive_limit(std::span<const LinearModel::DriveTerm> terms,
+                       const DoctorQuestion& question) {
+  const double inertia = terms[0].inertia;
+  DriveLimit limit{terms[0].joint, inertia};
+  OneCoordinate asked{inertia};
+  const LinearModel::DriveTerm* drive = nullptr;
+  for (const LinearModel::DriveTerm& term : terms) {
+    limit.stiffness += term.stiffness;
+    limit.damping += term.damping;
+    const Explicit is = explicit_of(term, question);
+    if (is.stiffness) asked.stiffness += term.stiffness;
+    (is.damping ? asked.explicit_damping : asked.implicit_damping) += term.damping;
+    if (!term.passive) drive = &term;
   }
-  limit.armature = armature_for(asked, wanted);
+  if (!std::isfinite(inertia)) return limit;  // its joint cannot move
+  limit.explicit_step = largest_step({inertia, limit.stiffness, limit.damping, 0.0});
+  limit.damped_step = largest_step({inertia, limit.stiffness, 0.0, limit.damping});
+  limit.step = largest_step(asked);
+  if (drive != nullptr) {
+    const int held = std::max(question.held, 1);
+    const HeldDrive law{inertia, drive->stiffness, drive->damping, held};
+    limit.held_step = largest_step_of_effort(law);
+    limit.delay_step = largest_step_of_delay(law);
+    if (question.held > 0) {
+      limit.step = std::min(limit.held_step, limit.delay_step);
+      asked = {inertia, held * drive->stiffness, held * drive->damping, 0.0};
+    }
+  }
+  limit.armature = armature_for(asked, kSafeMargin * question.step);
   return limit;
 }
 
@@ -340,8 +356,14 @@ class Doctor {
     d.start = limits_of(models_, 0.0, question_);
     narrowest_.add(d.start, start);
     for (const LinearModel& model : models_) {
-      for (const LinearModel::DriveTerm& drive : model.drives()) {
-        d.drives.push_back(drive_limit(drive, question_));
+      const std::span<const LinearModel::DriveTerm> terms(model.drives());
+      for (std::size_t i = 0; i < terms.size();) {
+        std::size_t of_joint = 1;
+        while (i + of_joint < terms.size() && terms[i + of_joint].joint == terms[i].joint) {
+          ++of_joint;
+        }
+        d.drives.push_back(drive_limit(terms.subspan(i, of_joint), question_));
+        i += of_joint;
       }
     }
     d.findings = static_findings(*scene_, start);
@@ -391,21 +413,30 @@ class Doctor {
     }
   }
 
-  /// The drives that make up half of the stiffness in a mode. @param drives largest first
+  /// The drives and springs that make up half of the stiffness in a mode.
+  /// @param drives largest first
   [[nodiscard]] std::string drives_text(const std::vector<LinearModel::Share>& drives) const {
     std::vector<std::string> names;
     double sum = 0.0;
+    bool are_drives = false;
+    bool are_springs = false;
     for (const LinearModel::Share& drive : drives) {
       if (sum > 0.5) break;
       names.push_back(named_joint(*scene_, drive.index));
+      are_drives = are_drives || drive_of(scene_->joints[index(drive.index)]) != nullptr;
+      are_springs = are_springs || spring_of(scene_->joints[index(drive.index)]) != nullptr;
       sum += drive.share;
     }
-    if (names.size() == 1) return "the drive of " + names[0];
-    std::string text = "the drives of " + names[0];
+    const bool are_many = names.size() > 1;
+    std::string text = "the ";
+    if (are_drives) text += are_many ? "drives" : "drive";
+    if (are_drives && are_springs) text += " and ";
+    if (are_springs) text += are_many ? "springs" : "spring";
+    text += " of " + names[0];
     for (std::size_t i = 1; i < names.size(); ++i) {
       text += (i + 1 < names.size() ? ", " : " and ") + names[i];
     }
-    return text + " together";
+    return are_many ? text + " together" : text;
   }
 
   void set_limit() {
@@ -421,7 +452,7 @@ class Doctor {
       d.step = drive.step;
       d.by_drive = true;
       const bool late = drive.delay_step < drive.held_step && question_.held > 1;
-      d.limited_by = "the drive of " + named_joint(*scene_, drive.joint) +
+      d.limited_by = drives_text({{drive.joint, 1.0}}) +
                      (late ? ", held over several steps with too little damping" : "");
     }
   }
@@ -611,8 +642,9 @@ std::vector<Finding> static_findings(const Scene& scene, const State& state) {
       }
     }
     const Drive* drive = drive_of(joint);
+    const Spring* spring = spring_of(joint);
     if (drive != nullptr && drive->stiffness > 0.0 && drive->damping == 0.0 &&
-        armature_of(joint) == 0.0) {
+        (spring == nullptr || spring->damping == 0.0) && armature_of(joint) == 0.0) {
       warn("the drive of " + of.name + " has a stiffness and neither damping nor armature");
     }
   }

@@ -46,12 +46,12 @@ struct GroupFacts {
   int redundant = 0;  // rows of rigid joints that others imply
 };
 
-/// One drive at the start, its other joints free.
+/// The drive and the spring of one joint at the start, its other joints free.
 struct DriveLimit {
   int joint = -1;
   double inertia = 0.0;             // of its coordinate, armatures included [kg m^2 or kg]
-  double stiffness = 0.0;           // [N m/rad or N/m]
-  double damping = 0.0;             // [N m s/rad or N s/m]
+  double stiffness = 0.0;           // of both [N m/rad or N/m]
+  double damping = 0.0;             // of both [N m s/rad or N s/m]
   double explicit_step = kNoLimit;  // stiffness and damping explicit [s]
   double damped_step = kNoLimit;    // damping implicit [s]
   double held_step = kNoLimit;      // as a law held over DoctorQuestion::held steps [s]

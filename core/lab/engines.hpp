@@ -15,21 +15,18 @@ enum class Treated : std::uint8_t { kImplicit, kExplicit };
 struct Engine {
   std::string_view name;  // on the command line
   const char* title;
-  Treated stiffness;  // of drives
+  Treated stiffness;  // of drives and springs
   Treated damping;    // of drives
   bool assumed;       // the treatment of drives is the safe assumption, not what the engine says
   const char* step;   // what its users set; %1 is the step, %2 their number in a frame
-  const char* note = "";  // what the treatment of drives leaves out
+  bool damps_springs = false;  // the damping of springs is implicit, whatever that of drives is
 };
 
 inline constexpr std::array kEngines{
     Engine{"substep", "substep", Treated::kImplicit, Treated::kImplicit, false,
            "mode const with n = %2, or adaptive with alpha = 1"},
-    Engine{
-        "mujoco", "MuJoCo, integrator Euler", Treated::kExplicit, Treated::kExplicit, false,
-        "option timestep=\"%1\"",
-        "Damping counts as that of an actuator. Damping of the joint itself is implicit here: for "
-        "it, ask for mujoco-implicitfast."},
+    Engine{"mujoco", "MuJoCo, integrator Euler", Treated::kExplicit, Treated::kExplicit, false,
+           "option timestep=\"%1\"", true},
     Engine{"mujoco-implicitfast", "MuJoCo, integrator implicitfast", Treated::kExplicit,
            Treated::kImplicit, false, "option timestep=\"%1\" integrator=\"implicitfast\""},
     Engine{"mujoco-discrete", "MuJoCo, integrator discrete", Treated::kImplicit, Treated::kImplicit,

@@ -378,7 +378,8 @@ class LinearModel::Builder {
         model.mass_ += block.armature * coordinate * coordinate.transpose();
       } else if (is_drive(block)) {
         const Drive& drive = stage_->drive(block);
-        model.drives_.push_back({joint, coordinate, 0.0, drive.stiffness, drive.damping});
+        model.drives_.push_back(
+            {joint, coordinate, 0.0, drive.stiffness, drive.damping, is_joint_spring(block)});
       }
     }
     model.geometric_ = 0.5 * (geometric + geometric.transpose());

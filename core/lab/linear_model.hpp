@@ -16,10 +16,10 @@ namespace substep {
 ///   M q'' + D q' + (K_g + K_s + K_d) q = 0
 /// in coordinates q that leave its joints closed, but for those so soft that a frame nearly
 /// resolves them. M includes armatures. K_g is the geometric stiffness, the resisting part -K of
-/// Eq. 1, symmetrised; K_s that of these joints, K_d and D those of drives. Contacts, limits,
-/// motors and dry friction have no part in it but by the forces of joints: motors and dry friction
-/// exert what they can of what holds their coordinate, limits that are closed push. Terms by
-/// velocities, gyroscopic and centrifugal ones, are left out.
+/// Eq. 1, symmetrised; K_s that of these joints, K_d and D those of drives and springs. Contacts,
+/// limits, motors and dry friction have no part in it but by the forces of joints: motors and dry
+/// friction exert what they can of what holds their coordinate, limits that are closed push. Terms
+/// by velocities, gyroscopic and centrifugal ones, are left out.
 class LinearModel {
  public:
   /// The groups of a scene. Joint forces are those that accelerate it from this state; in redundant
@@ -34,6 +34,7 @@ class LinearModel {
     double inertia = 0.0;        // 1/(J M^-1 J^T), armatures and joints included [kg m^2 or kg]
     double stiffness = 0.0;      // [N m/rad or N/m]
     double damping = 0.0;        // [N m s/rad or N s/m]
+    bool passive = false;        // a spring, not a drive
   };
   /// What a mode consists of.
   struct Share {

@@ -152,6 +152,15 @@ std::optional<JointFault> drive_fault(const Joint& joint, const JointAxes& axes)
   return angular != nullptr ? zero_fault("drive", axes, *angular) : std::nullopt;
 }
 
+std::optional<JointFault> spring_fault(const Joint& joint, const JointAxes& axes) {
+  const Spring* spring = spring_of(joint);
+  if (spring == nullptr) return std::nullopt;
+  if (spring->stiffness == 0.0 && spring->damping == 0.0)
+    return JointFault{"spring", "stiffness or damping must be above 0"};
+  const AngularSpring* angular = angular_spring_of(joint);
+  return angular != nullptr ? zero_fault("spring", axes, *angular) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<JointFault> joint_fault(const Joint& joint) {
@@ -165,6 +174,7 @@ std::optional<JointFault> joint_fault(const Joint& joint) {
     if (auto fault = limit_fault(*axes, *limit)) return fault;
   }
   if (auto fault = drive_fault(joint, *axes)) return fault;
+  if (auto fault = spring_fault(joint, *axes)) return fault;
   const auto across = across_of(joint);
   if (!across) return std::nullopt;
   if (const auto fault = across_axis_fault(axes->a, across->a))

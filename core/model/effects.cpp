@@ -58,6 +58,10 @@ bool needs_drives(const Scene& scene) {
   return std::any_of(scene.joints.begin(), scene.joints.end(), drive_of);
 }
 
+bool needs_springs(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), spring_of);
+}
+
 bool needs_joint_friction(const Scene& scene) {
   return std::any_of(scene.joints.begin(), scene.joints.end(), friction_of);
 }

@@ -22,6 +22,7 @@ struct Effects {
   bool drives = false;          // of joints
   bool joint_friction = false;  // dry
   bool armature = false;        // of joints
+  bool springs = false;         // of the coordinates of joints
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };
@@ -39,6 +40,7 @@ bool needs_motors(const Scene& scene);
 bool needs_drives(const Scene& scene);
 bool needs_joint_friction(const Scene& scene);
 bool needs_armature(const Scene& scene);
+bool needs_springs(const Scene& scene);
 
 struct EffectEntry {
   std::string_view name;  // in files
@@ -68,13 +70,15 @@ inline constexpr std::array kEffects{
     EffectEntry{"limits", &Effects::limits, needs_limits,
                 "Limits of joints. Off: hinges turn and slides move freely.", &Effects::joints},
     EffectEntry{"motors", &Effects::motors, needs_motors, "Motors of joints.", &Effects::joints},
-    EffectEntry{"drives", &Effects::drives, needs_drives,
-                "Drives of joints: springs and dampers towards a target.", &Effects::joints},
+    EffectEntry{"drives", &Effects::drives, needs_drives, "Drives of joints towards a target.",
+                &Effects::joints},
     EffectEntry{"joint_friction", &Effects::joint_friction, needs_joint_friction,
                 "Dry friction of hinges and slides.", &Effects::joints},
     EffectEntry{"armature", &Effects::armature, needs_armature,
                 "Inertia of the coordinates of hinges and slides: geared rotors.",
-                &Effects::joints}};
+                &Effects::joints},
+    EffectEntry{"springs", &Effects::springs, needs_springs,
+                "Springs and dampers of hinges and slides.", &Effects::joints}};
 
 constexpr bool lists_each_flag() {
   Effects listed;
@@ -88,7 +92,7 @@ static_assert(lists_each_flag(), "one entry for each flag");
 /// True if parts of joints act on their angle or travel.
 inline bool acts_on_coordinates(const Effects& effects) {
   return effects.limits || effects.motors || effects.drives || effects.joint_friction ||
-         effects.armature;
+         effects.armature || effects.springs;
 }
 
 /// True if an effect can act: it depends on none, or on one that is enabled.

@@ -83,7 +83,39 @@ struct LinearMotor : Motor {
   }
 };
 
-/// A spring and damper of a joint's coordinate x, with as much effort as it has:
+/// A passive spring and damper of a joint's coordinate x: stiffness (rest - x) - damping dx/dt.
+struct Spring {
+  double rest = 0.0;       // [rad or m]
+  double stiffness = 0.0;  // >= 0; it or the damping is above 0 [N m/rad or N/m]
+  double damping = 0.0;    // >= 0 [N m s/rad or N s/m]
+};
+
+/// The angle is that of AngularDrive.
+struct AngularSpring : Spring {
+  Vec3 across_a = Vec3::UnitX();  // unit, perpendicular to axis_a, in the frame of a [-]
+  Vec3 across_b = Vec3::UnitX();  // unit, perpendicular to axis_b, in the frame of b [-]
+
+  template <class Part, class Field>
+  static void own_fields(Part& spring, Field&& field) {
+    field("rest", spring.rest, kDriveAngleRange);
+    field("stiffness", spring.stiffness, kDriveTurningStiffnessRange);
+    field("damping", spring.damping, kDriveTurningDampingRange);
+    field("across_a", spring.across_a);
+    field("across_b", spring.across_b);
+  }
+};
+
+/// The travel is that of TravelLimit.
+struct LinearSpring : Spring {
+  template <class Part, class Field>
+  static void own_fields(Part& spring, Field&& field) {
+    field("rest", spring.rest, kPositionRange);
+    field("stiffness", spring.stiffness, kDriveStiffnessRange);
+    field("damping", spring.damping, kDriveDampingRange);
+  }
+};
+
+/// A spring and damper towards a target of a joint's coordinate x, with as much effort as it has:
 ///   stiffness (target - x) + damping (velocity - dx/dt).
 struct Drive {
   double target = 0.0;                // [rad or m]
@@ -140,6 +172,7 @@ struct HingeJoint : JointBase {
   std::optional<AngleLimit> limit;
   std::optional<AngularMotor> motor;
   std::optional<AngularDrive> drive;
+  std::optional<AngularSpring> spring;
   std::optional<double> friction;  // dry: largest torque about the axis, > 0 [N m]
   std::optional<double> armature;  // inertia of the angle, besides that of the bodies [kg m^2]
 
@@ -151,6 +184,7 @@ struct HingeJoint : JointBase {
     field("limit", joint.limit);
     field("motor", joint.motor);
     field("drive", joint.drive);
+    field("spring", joint.spring);
     field("friction", joint.friction, kMotorTorqueRange);
     field("armature", joint.armature, kInertiaRange);
   }
@@ -182,6 +216,7 @@ struct PrismaticJoint : OrientedJoint {
   std::optional<TravelLimit> limit;
   std::optional<LinearMotor> motor;
   std::optional<LinearDrive> drive;
+  std::optional<LinearSpring> spring;
   std::optional<double> friction;  // dry: largest force along the axis, > 0 [N]
   std::optional<double> armature;  // inertia of the travel, besides that of the bodies [kg]
 
@@ -191,6 +226,7 @@ struct PrismaticJoint : OrientedJoint {
     field("limit", joint.limit);
     field("motor", joint.motor);
     field("drive", joint.drive);
+    field("spring", joint.spring);
     field("friction", joint.friction, kMotorForceRange);
     field("armature", joint.armature, kMassRange);
   }

@@ -105,6 +105,16 @@ inline const Drive* drive_of(const Joint& joint) {
       joint);
 }
 
+/// The spring of a joint's coordinate, or null.
+inline const Spring* spring_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> const Spring* {
+        if constexpr (requires { j.spring; }) return j.spring ? &*j.spring : nullptr;
+        return nullptr;
+      },
+      joint);
+}
+
 /// The largest torque or force of a joint's dry friction [N m or N], or nothing.
 inline std::optional<double> friction_of(const Joint& joint) {
   return std::visit(
@@ -130,6 +140,12 @@ inline double armature_of(const Joint& joint) {
 inline const AngularDrive* angular_drive_of(const Joint& joint) {
   const auto* hinge = std::get_if<HingeJoint>(&joint);
   return hinge != nullptr && hinge->drive ? &*hinge->drive : nullptr;
+}
+
+/// The spring of a hinge's angle, or null.
+inline const AngularSpring* angular_spring_of(const Joint& joint) {
+  const auto* hinge = std::get_if<HingeJoint>(&joint);
+  return hinge != nullptr && hinge->spring ? &*hinge->spring : nullptr;
 }
 
 /// The limit of a hinge's angle, or null.

@@ -126,6 +126,16 @@ void SceneBuilder::drive(int joint, const Drive& by) {
   }
 }
 
+void SceneBuilder::add_spring(int joint, const Spring& spring) {
+  Joint& of = scene_.joints[index(joint)];
+  if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->spring = LinearSpring{spring};
+  if (auto* hinge = std::get_if<HingeJoint>(&of)) {
+    const Vec3 zero = zero_of(*hinge);
+    hinge->spring =
+        AngularSpring{spring, axis_in(scene_, hinge->a, zero), axis_in(scene_, hinge->b, zero)};
+  }
+}
+
 void SceneBuilder::rub(int joint, double effort) {
   Joint& of = scene_.joints[index(joint)];
   if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->friction = effort;

@@ -36,6 +36,8 @@ class SceneBuilder {
   void drive(int joint, double velocity, double effort);
   /// Drives the angle of a hinge, 0 in the current poses, or the travel of a slide to a target.
   void drive(int joint, const Drive& by);
+  /// A spring and damper of a hinge or a slide, whose coordinate is 0 here.
+  void add_spring(int joint, const Spring& spring);
   /// Dry friction of a hinge or a slide. @param effort the largest torque or force [N m or N]
   void rub(int joint, double effort);
   /// Inertia of the angle of a hinge or the travel of a slide, besides that of the bodies.

@@ -158,7 +158,7 @@ void check_effects(const Scene& scene, Problems& problems) {
        {std::pair(&Effects::limits, "limits"), std::pair(&Effects::motors, "motors"),
         std::pair(&Effects::drives, "drives"),
         std::pair(&Effects::joint_friction, "joint_friction"),
-        std::pair(&Effects::armature, "armature")}) {
+        std::pair(&Effects::armature, "armature"), std::pair(&Effects::springs, "springs")}) {
     if (!listed.joints && listed.*effect) {
       missing("joints", '"' + std::string(name) + "\" needs it");
     }
@@ -169,6 +169,7 @@ void check_effects(const Scene& scene, Problems& problems) {
   bool drives = listed.drives;
   bool joint_friction = listed.joint_friction;
   bool armature = listed.armature;
+  bool springs = listed.springs;
   bool restitution = listed.restitution;
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const auto given = [&](const char* part) {
@@ -184,6 +185,9 @@ void check_effects(const Scene& scene, Problems& problems) {
     }
     if (drive_of(scene.joints[i]) != nullptr && !std::exchange(drives, true)) {
       missing("drives", given("drive"));
+    }
+    if (spring_of(scene.joints[i]) != nullptr && !std::exchange(springs, true)) {
+      missing("springs", given("spring"));
     }
     if (friction_of(scene.joints[i]) && !std::exchange(joint_friction, true)) {
       missing("joint_friction", given("friction"));

@@ -307,6 +307,7 @@ void Simulator::Impl::observe(const Measures& asked, std::span<const Mat3> axes,
     report.torn_joint = errors.torn_joint;
     report.springs += errors.springs;
   }
+  if (coordinates && asked.energies) report.springs += coordinates->elastic(state, axes);
   if (detector != nullptr && (asked.errors || (asked.energies && soft))) {
     const Overlaps found = overlaps(*detector, *scene, all, state, axes);
     report.penetration = found.deepest;

@@ -197,8 +197,7 @@ void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
 }
 
 void Simulator::Impl::drive_motors(const Substep& sub, std::span<const Vec6> u) const {
-  const Effects& effects = scene->effects;
-  if (!effects.motors && !effects.drives && !effects.joint_friction && !effects.armature) return;
+  if (!coordinates) return;
   for (Block& block : sub.rows) {
     if (!block.is_motor()) continue;
     if (is_drive(block)) {

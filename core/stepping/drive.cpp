@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/constraints/coordinate_stage.hpp"
 #include "core/stepping/armature.hpp"
 #include "core/stepping/compliance.hpp"
 
@@ -46,12 +46,6 @@ double share_of_speed(double dt, double dt_previous, double a) {
 }
 
 }  // namespace
-
-double coordinate_of(const Block& row) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  if (!row.seeded || row.position_rows > 0) return row.phi[0];
-  return row.phi[0] + kTurn * std::round((row.elastic[0] - row.phi[0]) / kTurn);
-}
 
 void set_drive(const Substep& sub, const State& state, const Drive& drive, std::span<const Vec6> u,
                Block& row) {

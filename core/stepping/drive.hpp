@@ -11,10 +11,6 @@ namespace substep {
 // Rows of drives; compliance.hpp derives their weights. With the bounds +-effort t on the impulse
 //   p = -t (k (mean of phi) + c (mean speed - v)),   phi = x - target.
 
-/// The coordinate of a drive's row [rad or m], from that of the last sub-step in Block::elastic if
-/// it is known: an angle is continuous, and counts full turns.
-double coordinate_of(const Block& row);
-
 /// Sets bias, softness and bounds of the row, and its coordinate.
 /// @param u velocities of the last sub-step [m/s, rad/s]
 void set_drive(const Substep& sub, const State& state, const Drive& drive, std::span<const Vec6> u,

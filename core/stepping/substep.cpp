@@ -13,11 +13,12 @@ namespace {
 std::vector<MotorsOnBody> motors_on_bodies(const Scene& scene) {
   std::vector<MotorsOnBody> on;
   const Effects& effects = scene.effects;
-  if (!effects.joints || !(effects.motors || effects.drives)) return on;
+  if (!effects.joints || !(effects.motors || effects.drives || effects.springs)) return on;
   on.resize(scene.bodies.size());
   for (const Joint& joint : scene.joints) {
     const Motor* motor = effects.motors ? motor_of(joint) : nullptr;
-    const Drive* drive = effects.drives ? drive_of(joint) : nullptr;
+    const bool pulls = (effects.drives && drive_of(joint) != nullptr) ||
+                       (effects.springs && spring_of(joint) != nullptr);
     for (const int body : {base(joint).a, base(joint).b}) {
       if (body == kWorld) continue;
       MotorsOnBody& sum = on[index(body)];
@@ -25,7 +26,7 @@ std::vector<MotorsOnBody> motors_on_bodies(const Scene& scene) {
         (axes_of(joint)->slides ? sum.force : sum.torque) += motor->effort;
         sum.moves = sum.moves || motor->velocity != 0.0;
       }
-      if (drive != nullptr) sum.moves = true;
+      if (pulls) sum.moves = true;
     }
   }
   return on;
@@ -42,7 +43,7 @@ Substep::Substep(const Scene& of)
   const std::size_t n = of.bodies.size();
   R_WB.resize(n);
   u_start.resize(n);
-  if (of.effects.joints && of.effects.drives) drives_on.resize(n);
+  if (of.effects.joints && (of.effects.drives || of.effects.springs)) drives_on.resize(n);
   if (of.effects.joints && of.effects.armature) u_unstruck.resize(n);
   impulse_time.resize(n);
   u_before.resize(n);

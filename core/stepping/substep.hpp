@@ -20,7 +20,7 @@ class TimeIntegrator;
 struct MotorsOnBody {
   double force = 0.0;   // sum of the largest forces [N]
   double torque = 0.0;  // sum of the largest torques [N m]
-  bool moves = false;   // a motor with a velocity, or a drive: the body does not stay at rest
+  bool moves = false;   // a motor with a velocity, a drive or a spring: the body does not rest
 };
 
 /// The data of one sub-step, in the order in which its parts are computed. Vectors hold one element

@@ -247,6 +247,7 @@ inline Scene any_scene() {
   effects.limits = needs_limits(scene);
   effects.motors = needs_motors(scene);
   effects.drives = needs_drives(scene);
+  effects.springs = needs_springs(scene);
   effects.joint_friction = needs_joint_friction(scene);
   effects.armature = needs_armature(scene);
   const bool limits_rebound =

@@ -27,10 +27,7 @@ const position = (joint, kp, kv = 0) =>
   `<position joint="${joint}" kp="${kp}"${kv > 0 ? ` kv="${kv}"` : ""}/>`;
 const actuators = (text) => `<actuator>${text}</actuator>`;
 
-/**
- * They rest or move slowly, so that the step of their linearisation is the limit. implicit: the
- * damping is that of joints, not of drives.
- */
+/** They rest or move slowly, so that the step of their linearisation is the limit. */
 export const models = [
   hanging("chain of ten", 10, 0.1, 0.1, 0.1),
   hanging("load of 50 kg on a chain of ten", 10, 0.1, 0.1, 50),
@@ -48,8 +45,8 @@ export const models = [
     ${sphere(0.5, 0.05)}</body>`, actuators('<velocity joint="j" kv="0.4"/>')),
   model("masses on springs", "", nested(4, "0 0 -0.2", () =>
     `<joint type="slide" axis="0 0 1" stiffness="3000"/>${sphere(0.3)}`)),
-  { ...model("damped springs", "", nested(3, "0.2 0 0", () =>
-    `<joint type="hinge" axis="0 1 0" stiffness="80" damping="0.3"/>${rod(0.2, 0.2)}`)), implicit: true },
+  model("damped springs", "", nested(3, "0.2 0 0", () =>
+    `<joint type="hinge" axis="0 1 0" stiffness="80" damping="0.3"/>${rod(0.2, 0.2)}`)),
   // A beam of 40 kg on two chains of two links each: a loop.
   model("beam on two chains", "", `
     <body name="a1" pos="-0.5 0 0"><joint type="hinge" axis="0 1 0"/>${sphere(0.1, 0.02, "0 0 -0.3")}

@@ -58,15 +58,16 @@ TEST(Mjcf, DefaultsAreInheritedFromClassesAndChildclasses) {
             "<default><joint damping='1' stiffness='4'/><default class='outer'><joint damping='2'/>"
             "<default class='inner'><joint stiffness='5'/></default></default></default>"));
   ASSERT_NE(result.scene, nullptr) << lines(result.report.errors);
-  const auto expect_drive = [&](const char* joint, double damping, double stiffness) {
-    const auto& drive = joint_called<HingeJoint>(*result.scene, joint).drive;
-    ASSERT_TRUE(drive) << joint;
-    EXPECT_EQ(drive->damping, damping) << joint;
-    EXPECT_EQ(drive->stiffness, stiffness) << joint;
+  const auto expect_spring = [&](const char* joint, double damping, double stiffness) {
+    const auto& hinge = joint_called<HingeJoint>(*result.scene, joint);
+    ASSERT_TRUE(hinge.spring) << joint;
+    EXPECT_EQ(hinge.spring->damping, damping) << joint;
+    EXPECT_EQ(hinge.spring->stiffness, stiffness) << joint;
+    EXPECT_FALSE(hinge.drive) << joint;
   };
-  expect_drive("inner", 2, 5);
-  expect_drive("outer", 2, 4);
-  expect_drive("main", 9, 4);
+  expect_spring("inner", 2, 5);
+  expect_spring("outer", 2, 4);
+  expect_spring("main", 9, 4);
 }
 
 TEST(Mjcf, RangesAreRelativeToTheStart) {
@@ -75,10 +76,10 @@ TEST(Mjcf, RangesAreRelativeToTheStart) {
             "<geom size='0.1' pos='1 0 0'/></body>"));
   ASSERT_NE(result.scene, nullptr) << lines(result.report.errors);
   const auto& hinge = joint_called<HingeJoint>(*result.scene, "j");
-  ASSERT_TRUE(hinge.limit && hinge.drive);
+  ASSERT_TRUE(hinge.limit && hinge.spring);
   EXPECT_NEAR(hinge.limit->lower, -115 * kDegree, 1e-15);
   EXPECT_NEAR(hinge.limit->upper, 5 * kDegree, 1e-15);
-  EXPECT_NEAR(hinge.drive->target, -5 * kDegree, 1e-15);
+  EXPECT_NEAR(hinge.spring->rest, -5 * kDegree, 1e-15);
 }
 
 TEST(Mjcf, AJointOutsideItsRangeStartsAtItsNearerEnd) {
@@ -94,7 +95,8 @@ TEST(Mjcf, AJointOutsideItsRangeStartsAtItsNearerEnd) {
             std::string::npos);
 }
 
-TEST(Mjcf, ActuatorsSpringsAndDampersAreOneDrive) {
+// The bound of an actuator is not that of the spring and the damper of its joint.
+TEST(Mjcf, ActuatorsAreDrivesBesideTheSpringOfTheirJoint) {
   const std::string body =
       "<body><joint name='j' stiffness='2' springref='0.1' damping='0.5' frictionloss='0.3'/>"
       "<geom size='0.1' pos='1 0 0'/></body>";
@@ -104,21 +106,24 @@ TEST(Mjcf, ActuatorsSpringsAndDampersAreOneDrive) {
     return joint_called<HingeJoint>(*result.scene, "j");
   };
   const auto passive = drive_with("<motor joint='j' gear='10'/>");
-  EXPECT_EQ(passive.drive->stiffness, 2.0);
-  EXPECT_EQ(passive.drive->target, 0.1);
+  EXPECT_FALSE(passive.drive);
+  EXPECT_EQ(passive.spring->stiffness, 2.0);
+  EXPECT_EQ(passive.spring->rest, 0.1);
+  EXPECT_EQ(passive.spring->damping, 0.5);
   EXPECT_EQ(passive.friction, 0.3);
   const auto position =
       drive_with("<position joint='j' kp='3' kv='0.25' gear='2' forcerange='-7 7'/>");
-  EXPECT_EQ(position.drive->stiffness, 14.0);
-  EXPECT_EQ(position.drive->damping, 1.5);
-  EXPECT_NEAR(position.drive->target, 0.2 / 14.0, 1e-16);
+  EXPECT_EQ(position.spring->stiffness, 2.0);
+  EXPECT_EQ(position.drive->stiffness, 12.0);
+  EXPECT_EQ(position.drive->damping, 1.0);
+  EXPECT_EQ(position.drive->target, 0.0);
   EXPECT_EQ(position.drive->effort, 14.0);
   const auto general = drive_with(
       "<general joint='j' biastype='affine' gainprm='5' biasprm='1 -8 -1' ctrlrange='0.5 1'/>");
-  EXPECT_EQ(general.drive->stiffness, 10.0);
-  EXPECT_NEAR(general.drive->target, (0.2 + 5 * 0.5 + 1) / 10.0, 1e-15);
+  EXPECT_EQ(general.drive->stiffness, 8.0);
+  EXPECT_NEAR(general.drive->target, (5 * 0.5 + 1) / 8.0, 1e-15);
   const auto velocity = drive_with("<velocity joint='j' kv='0.5'/>");
-  EXPECT_EQ(velocity.drive->damping, 1.0);
+  EXPECT_EQ(velocity.drive->damping, 0.5);
   EXPECT_EQ(velocity.drive->velocity, 0.0);
 }
 

@@ -49,7 +49,7 @@ TEST(Urdf, JointsHaveTheirLimitsAndDynamics) {
   ASSERT_NE(result.scene, nullptr) << lines(result.report.errors);
   const auto& hinge = joint_called<HingeJoint>(*result.scene, "to_arm");
   EXPECT_EQ(hinge.limit->lower, -1.0);
-  EXPECT_EQ(hinge.drive->damping, 0.2);
+  EXPECT_EQ(hinge.spring->damping, 0.2);
   EXPECT_EQ(hinge.friction, 0.3);
   EXPECT_EQ(joint_called<PrismaticJoint>(*result.scene, "to_slide").limit->upper, 0.1);
 }
@@ -123,8 +123,7 @@ TEST(Slrbs, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(error_of(slrbs(box(0, R"("mass": 1)"), R"({"type": "hinge", "body0_id": 0,
                            "body1_id": 5})")),
             "/joints/0/body1_id: no body has this id");
-  EXPECT_EQ(error_of("{}"),
-            "model.xml: is not a model in MJCF, URDF or the JSON of SLRBS");
+  EXPECT_EQ(error_of("{}"), "model.xml: is not a model in MJCF, URDF or the JSON of SLRBS");
 }
 
 TEST(ImportModel, KnowsAModelByItsContent) {

@@ -81,6 +81,11 @@ inline Scene in_units(Scene scene, double mass, double length, double time = 1.0
             }
             if (of.armature) *of.armature *= mass * (slides ? 1.0 : length * length);
             if (of.friction) *of.friction *= mass * speed / time * (slides ? 1.0 : length);
+            if (of.spring) {
+              of.spring->rest *= unit;
+              of.spring->stiffness *= effort / unit;
+              of.spring->damping *= effort / unit * time;
+            }
             if (of.drive) {
               const double effort = mass * speed / time * (slides ? 1.0 : length);
               const double unit = slides ? length : 1.0;

@@ -271,6 +271,7 @@ TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   Scene scene;
   scene.effects.joints = scene.effects.limits = scene.effects.motors = true;
   scene.effects.drives = scene.effects.joint_friction = scene.effects.armature = true;
+  scene.effects.springs = true;
   scene.bodies = {moving(Sphere{0.1}), moving(Sphere{0.1})};
   HingeJoint hinge;
   hinge.b = 1;
@@ -279,14 +280,15 @@ TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   hinge.drive = AngularDrive{{.stiffness = 3.0}};
   hinge.friction = 4.0;
   hinge.armature = 5.0;
+  hinge.spring = AngularSpring{{.rest = 6.0, .stiffness = 7.0, .damping = 8.0}};
   scene.joints = {BallJoint{}, hinge};
   CoordinateStage stage(scene);
-  EXPECT_EQ(stage.size(), 6U);
+  EXPECT_EQ(stage.size(), 7U);
   Blocks blocks;
   const State state = initial_state(scene);
   stage.append(whole(scene), state, rotations(state), 0.01, true, blocks);
-  ASSERT_EQ(blocks.size(), 5U)
-      << "the upper bound, which is closed, motor, drive, friction and armature";
+  ASSERT_EQ(blocks.size(), 6U)
+      << "the upper bound, which is closed, motor, drive, friction, armature and spring";
   for (const Block& block : blocks.all()) {
     EXPECT_TRUE(CoordinateStage::is_id(block.id));
     EXPECT_FALSE(is_contact_id(block.id));
@@ -303,9 +305,14 @@ TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   EXPECT_TRUE(is_joint_friction(blocks.all()[3]));
   EXPECT_EQ(stage.friction(blocks.all()[3]), 4.0);
   EXPECT_TRUE(is_armature(blocks.all()[4]));
+  EXPECT_FALSE(is_joint_spring(blocks.all()[2]));
+  EXPECT_TRUE(is_joint_spring(blocks.all()[5]) && is_drive(blocks.all()[5]));
+  EXPECT_EQ(stage.drive(blocks.all()[5]).target, 6.0);
+  EXPECT_EQ(stage.drive(blocks.all()[5]).stiffness, 7.0);
+  EXPECT_EQ(stage.drive(blocks.all()[5]).damping, 8.0);
   blocks.clear();
   stage.append(whole(scene), state, rotations(state), 0.01, false, blocks);
-  EXPECT_EQ(blocks.size(), 5U) << "the lower bound is far";
+  EXPECT_EQ(blocks.size(), 6U) << "the lower bound is far";
 }
 
 }  // namespace

@@ -46,8 +46,9 @@ class SceneBitsWriter {
     if (const auto* box = std::get_if<Box>(&shape)) add(box->half_extents);
   }
   void add(const Effects& e) {
-    for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution,
-                         e.external, e.limits, e.motors, e.drives, e.joint_friction, e.armature})
+    for (const bool b :
+         {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution, e.external,
+          e.limits, e.motors, e.drives, e.joint_friction, e.armature, e.springs})
       add(b);
   }
   void add(const Body& b) {
@@ -98,6 +99,13 @@ class SceneBitsWriter {
     if (const AngularDrive* drive = angular_drive_of(joint)) {
       add(drive->across_a);
       add(drive->across_b);
+    }
+    if (const AngularSpring* spring = angular_spring_of(joint)) {
+      add(spring->across_a);
+      add(spring->across_b);
+    }
+    if (const Spring* spring = spring_of(joint)) {
+      for (const double x : {spring->rest, spring->stiffness, spring->damping}) add(x);
     }
     if (const Drive* drive = drive_of(joint)) {
       for (const double x : {drive->target, drive->velocity, drive->stiffness, drive->damping,

@@ -229,12 +229,12 @@ INSTANTIATE_TEST_SUITE_P(
             R"("type": "hinge")",
             R"("type": "slider")",
             {"/joints/0/type: must be ball, hinge, prismatic, weld or distance, not \"slider\""}},
-        BadFile{
-            "EffectOfNoKind",
-            R"("friction"],)",
-            R"("friction", "magnetism"],)",
-            {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
-             "external, limits, motors, drives, joint_friction or armature, not \"magnetism\""}},
+        BadFile{"EffectOfNoKind",
+                R"("friction"],)",
+                R"("friction", "magnetism"],)",
+                {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
+                 "external, limits, motors, drives, joint_friction, armature or springs, not "
+                 "\"magnetism\""}},
         BadFile{"EffectOfForcesMissing",
                 R"("shape": {"type": "sphere")",
                 R"("force": [0, 0, 0], "torque": [0, 1, 0], "shape": {"type": "sphere")",

@@ -97,12 +97,14 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
   hinge.limit.emplace();
   hinge.motor.emplace();
   hinge.drive.emplace();
+  hinge.spring.emplace();
   hinge.friction = hinge.armature = 1.0;
   scene.joints.emplace_back(hinge);
   PrismaticJoint slide;
   slide.limit.emplace();
   slide.motor.emplace();
   slide.drive.emplace();
+  slide.spring.emplace();
   slide.friction = slide.armature = 1.0;
   scene.joints.emplace_back(slide);
   scene.joints.emplace_back(WeldJoint{});
@@ -130,6 +132,8 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
       {"/$defs/angle_limit", joint(3) + "/limit"},
       {"/$defs/angular_motor", joint(3) + "/motor"},
       {"/$defs/angular_drive", joint(3) + "/drive"},
+      {"/$defs/angular_spring", joint(3) + "/spring"},
+      {"/$defs/linear_spring", joint(2) + "/spring"},
       {"/$defs/travel_limit", joint(2) + "/limit"},
       {"/$defs/linear_motor", joint(2) + "/motor"},
       {"/$defs/linear_drive", joint(2) + "/drive"},

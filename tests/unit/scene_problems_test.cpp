@@ -224,11 +224,11 @@ INSTANTIATE_TEST_SUITE_P(
                 R"("type": "sphere")",
                 R"("type": "cylinder")",
                 {"/bodies/2/shape/type: must be sphere, box or plane, not \"cylinder\""}},
-        BadFile{
-            "JointOfNoKind",
-            R"("type": "hinge")",
-            R"("type": "slider")",
-            {"/joints/0/type: must be ball, hinge, prismatic, weld or distance, not \"slider\""}},
+        BadFile{"JointOfNoKind",
+                R"("type": "hinge")",
+                R"("type": "slider")",
+                {"/joints/0/type: must be ball, hinge, prismatic, weld, distance, universal or "
+                 "cylindrical, not \"slider\""}},
         BadFile{
             "EffectOfNoKind",
             R"("friction"],)",

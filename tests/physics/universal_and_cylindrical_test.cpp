@@ -297,11 +297,11 @@ TEST_P(CrossAndCylinder, IsTheSameInAnotherOrderOfTheFile) {
 INSTANTIATE_TEST_SUITE_P(EveryMethod, CrossAndCylinder, testing::ValuesIn(joint_methods()),
                          [](const auto& method) { return method.param.name; });
 
-/// A box at rest under a constant force and torque, its centre in the joint.
+/// A cube under a constant force and torque, its centre in the joint, after it has come to rest.
 template <class Add>
 Simulator yielding(const Vec3& force, const Vec3& torque, Add&& add) {
   SceneBuilder builder;
-  const int box = builder.add_body(Box{{0.2, 0.1, 0.3}}, 3.0, Vec3::Zero());
+  const int box = builder.add_body(Box{{0.2, 0.2, 0.2}}, 1.0, Vec3::Zero());
   add(builder, box);
   builder.scene().gravity.setZero();
   builder.body(box).force = force;
@@ -340,7 +340,7 @@ TEST(CylindricalJoint, YieldsByItsComplianceAcrossItsAxis) {
     joint.angular_compliance = kAngularC;
   });
   const State& state = simulator.state();
-  EXPECT_LT((state.x[0] - kLinearC * force).norm(), 1e-6);
+  EXPECT_LT((state.x[0] - kLinearC * force).norm(), 1e-7);
   EXPECT_LT((2.0 * state.q[0].vec() - kAngularC * torque).norm(), 1e-4);
 }
 

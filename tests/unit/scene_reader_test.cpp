@@ -214,9 +214,11 @@ TEST(SceneReader, RefusesUniversalAndCylindricalJointsWithTheWrongAxesOrKeys) {
             List{"/joints/0: the axes start at an angle with cosine 0.8, which is more than 0.1"});
   EXPECT_EQ(problems_of(with_joint("cylindrical", R"("axis_a": [0, 1, 0], "axis_b": [0, 0, 1])")),
             List{"/joints/0: the axes start at an angle with sine 1, which is more than 0.1"});
-  EXPECT_EQ(problems_of(with_joint("universal", R"("axis_a": [1, 0, 0], "axis_b": [0, 0, 1], )"
-                                                R"("friction": 1)")),
-            List{"/joints/0/friction: unknown key"});
+  EXPECT_EQ(
+      problems_of(with_joint("universal", R"("axis_a": [1, 0, 0], "axis_b": [0, 0, 1], )"
+                                          R"("friction": 1)")),
+      List{"/joints/0/friction: unknown key (known here: name, type, a, b, anchor_a, anchor_b, "
+           "compliance, axis_a, axis_b or angular_compliance)"});
 }
 
 TEST(SceneReader, NeedsABodyThatMoves) {

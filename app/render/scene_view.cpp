@@ -319,6 +319,12 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
     const double r = 1.25 * std::min(thin, 0.25 * home_.radius);
     if (is_weld(joint)) {
       add_box(out.boxes, x, poses.q[a], Vec3::Constant(r), 0.2 * r, palette.joint);
+    } else if (const auto pins = crossing_axes_of(joint)) {
+      const Quat q_b = j.b == kWorld ? Quat(Quat::Identity()) : poses.q[b];
+      for (const Vec3& pin : {Vec3(poses.q[a] * pins->a), Vec3(q_b * pins->b)}) {
+        add_box(out.boxes, x, Quat::FromTwoVectors(Vec3::UnitZ(), pin), r * Vec3(0.5, 0.5, 1.5),
+                0.45 * r, palette.joint);
+      }
     } else if (const auto axes = axes_of(joint)) {
       // The path from the anchor on b.
       if (axes->slides && from != x) add_rod(out.boxes, from, x, 0.3 * r, palette.joint);

@@ -158,11 +158,17 @@ void draw_joint_frames(const Sketch& in) {
     const Quat& q = poses.q[static_cast<std::size_t>(j.a)];
     const Vec3 at = anchor_of(in.session, j);
     const double px = pixel_size(in.viewport, at);
-    if (const auto axes = axes_of(joint); axes && !is_weld(joint)) {
-      const Vec3 axis = 22.0 * px * (q * axes->a);
+    const auto draw_axis = [&](const Vec3& direction) {
+      const Vec3 axis = 22.0 * px * direction;
       if (const auto s = seen(in, at - axis, at + axis)) {
         draw_line(in, *s, t.purple, 2.0F);
       }
+    };
+    if (const auto axes = axes_of(joint); axes && !is_weld(joint)) {
+      draw_axis(q * axes->a);
+    } else if (const auto pins = crossing_axes_of(joint)) {
+      draw_axis(q * pins->a);
+      draw_axis(j.b == kWorld ? pins->b : Vec3(poses.q[static_cast<std::size_t>(j.b)] * pins->b));
     } else {
       draw_axes(in, at, q, 14.0 * px);
     }

@@ -14,6 +14,8 @@ namespace substep {
 /// @tparam kFirst the first of the rows
 template <int kFirst>
 struct FixedAxes {
+  static constexpr int kRows = 3;
+
   static void constants(double angular_compliance, Block& block) {
     for (int row = kFirst; row < kFirst + 3; ++row) block.C[row] = angular_compliance;
   }
@@ -80,6 +82,14 @@ struct FixedAxes {
     phi[kFirst] = axis.dot(b.R * start.v1) - start.axis.dot(start.v1);
     phi[kFirst + 1] = axis.dot(v2) - start.axis.dot(start.v2);
     phi[kFirst + 2] = (a.R * start.w).dot(v2) - start.w.dot(start.v2);
+  }
+
+  /// Sets the forces with which the rows exert a torque on a, with w along v_1.
+  static void set_couple(const Vec3& couple, Block& block) {
+    block.w = block.v1;
+    block.lambda[kFirst] = couple.dot(block.v2);
+    block.lambda[kFirst + 1] = -couple.dot(block.v1);
+    block.lambda[kFirst + 2] = couple.dot(block.axis);
   }
 
   static Vec3 torque(const Block& block, const double* force) {

@@ -1,14 +1,16 @@
 #pragma once
 
+#include "core/constraints/cylindrical_joint.hpp"
 #include "core/constraints/prismatic_joint.hpp"
 
 namespace substep {
 
-/// The travel of a slide as one row: phi = v . d - lower [m], like the rows of the joint, with v
-/// along the axis instead of across it. For the upper bound v is reversed. The functions are
+/// The travel of a sliding joint as one row: phi = v . d - lower [m], like the rows of the joint,
+/// with v along the axis instead of across it. For the upper bound v is reversed. The functions are
 /// documented in PoseRows.
-struct SlideTravel {
-  using Owner = PrismaticJoint;
+template <class Slide>
+struct TravelOf {
+  using Owner = Slide;
 
   /// The measure of tolerances [m]: the half width of body a.
   static double width(const Body& a) {
@@ -16,20 +18,20 @@ struct SlideTravel {
   }
 
   /// @param upper whether phi is the distance from the upper bound
-  static JointGeometry geometry(const PrismaticJoint& slide, const TravelLimit& limit, bool upper) {
-    JointGeometry geometry = SlideTravel::geometry(slide);
+  static JointGeometry geometry(const Slide& slide, const TravelLimit& limit, bool upper) {
+    JointGeometry geometry = TravelOf::geometry(slide);
     if (upper) geometry.v1 = -geometry.v1;
     geometry.middle = upper ? -limit.upper : limit.lower;
     return geometry;
   }
 
   /// phi = v . d
-  static JointGeometry geometry(const PrismaticJoint& slide, const auto& /*given*/) {
+  static JointGeometry geometry(const Slide& slide, const auto& /*given*/) {
     return geometry(slide);
   }
 
   /// Of a row that has a speed and no position.
-  static JointGeometry geometry(const PrismaticJoint& slide) {
+  static JointGeometry geometry(const Slide& slide) {
     JointGeometry geometry{slide.anchor_a, slide.anchor_b};
     geometry.v1 = slide.axis_b;
     return geometry;
@@ -91,5 +93,8 @@ struct SlideTravel {
     return one;
   }
 };
+
+using SlideTravel = TravelOf<PrismaticJoint>;
+using CylinderTravel = TravelOf<CylindricalJoint>;
 
 }  // namespace substep

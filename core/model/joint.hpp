@@ -20,7 +20,8 @@ struct JointBase {
   Vec3 anchor_b = Vec3::Zero();  // in the frame of b, or in the world for kWorld [m]
   double compliance = 0.0;       // C of the positional rows [m/N], >= 0
 
-  static constexpr bool kSlides = false;  // true if the anchors may separate along the axis
+  static constexpr bool kSlides = false;   // true if the anchors may separate along the axis
+  static constexpr bool kCrosses = false;  // true if the axes stay perpendicular, not parallel
 };
 
 // Each type has kType, its name in files, and own_fields(), which lists its members beyond
@@ -249,7 +250,53 @@ struct DistanceJoint : JointBase {
   }
 };
 
-using Joint = std::variant<BallJoint, HingeJoint, PrismaticJoint, WeldJoint, DistanceJoint>;
+/// The two anchors coincide and the two axes stay perpendicular, like the pins of a cross: 4 rows.
+struct UniversalJoint : JointBase {
+  static constexpr const char* kType = "universal";
+  static constexpr bool kCrosses = true;
+  Vec3 axis_a = Vec3::UnitX();      // unit, in the frame of a [-]
+  Vec3 axis_b = Vec3::UnitY();      // unit, in the frame of b, or in the world for kWorld [-]
+  double angular_compliance = 0.0;  // C of the angular row [rad/(N m)], >= 0
+
+  template <class J, class Field>
+  static void own_fields(J& joint, Field&& field) {
+    field("axis_a", joint.axis_a);
+    field("axis_b", joint.axis_b);
+    field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
+  }
+};
+
+/// The anchor on a slides along the axis through the anchor on b, and a turns about it: 4 rows.
+struct CylindricalJoint : JointBase {
+  static constexpr const char* kType = "cylindrical";
+  static constexpr bool kSlides = true;
+  Vec3 axis_a = Vec3::UnitZ();      // unit, in the frame of a [-]
+  Vec3 axis_b = Vec3::UnitZ();      // unit, in the frame of b, or in the world for kWorld [-]
+  double angular_compliance = 0.0;  // C of the two angular rows [rad/(N m)], >= 0
+  // Of the travel; the angle is free.
+  std::optional<TravelLimit> limit;
+  std::optional<LinearMotor> motor;
+  std::optional<LinearDrive> drive;
+  std::optional<LinearSpring> spring;
+  std::optional<double> friction;  // dry: largest force along the axis, > 0 [N]
+  std::optional<double> armature;  // inertia of the travel, besides that of the bodies [kg]
+
+  template <class J, class Field>
+  static void own_fields(J& joint, Field&& field) {
+    field("axis_a", joint.axis_a);
+    field("axis_b", joint.axis_b);
+    field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
+    field("limit", joint.limit);
+    field("motor", joint.motor);
+    field("drive", joint.drive);
+    field("spring", joint.spring);
+    field("friction", joint.friction, kMotorForceRange);
+    field("armature", joint.armature, kMassRange);
+  }
+};
+
+using Joint = std::variant<BallJoint, HingeJoint, PrismaticJoint, WeldJoint, DistanceJoint,
+                           UniversalJoint, CylindricalJoint>;
 
 inline const JointBase& base(const Joint& joint) {
   return std::visit([](const auto& j) -> const JointBase& { return j; }, joint);

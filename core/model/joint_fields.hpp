@@ -8,7 +8,7 @@
 
 namespace substep {
 
-/// The two axes that a joint keeps parallel, in the frames of its bodies.
+/// The two axes that a joint keeps parallel or perpendicular, in the frames of its bodies.
 struct JointAxes {
   Vec3 a = Vec3::UnitZ();
   Vec3 b = Vec3::UnitZ();
@@ -25,11 +25,25 @@ inline std::optional<JointAxes> across_of(const Joint& joint) {
       joint);
 }
 
-/// Nothing for a joint without axes.
+/// The axes that a joint keeps parallel, or nothing.
 inline std::optional<JointAxes> axes_of(const Joint& joint) {
   return std::visit(
       [](const auto& j) -> std::optional<JointAxes> {
-        if constexpr (requires { j.axis_a; }) return JointAxes{j.axis_a, j.axis_b, j.kSlides};
+        if constexpr (requires { j.axis_a; }) {
+          if (!j.kCrosses) return JointAxes{j.axis_a, j.axis_b, j.kSlides};
+        }
+        return std::nullopt;
+      },
+      joint);
+}
+
+/// The axes that a joint keeps perpendicular, or nothing.
+inline std::optional<JointAxes> crossing_axes_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> std::optional<JointAxes> {
+        if constexpr (requires { j.axis_a; }) {
+          if (j.kCrosses) return JointAxes{j.axis_a, j.axis_b};
+        }
         return std::nullopt;
       },
       joint);

@@ -42,6 +42,12 @@ void fix_axes(const Scene& scene, const Vec3& along, auto& joint) {
   joint.across_b = axis_in(scene, joint.b, v1);
 }
 
+/// Calls `visit` with a joint that has a travel.
+void visit_slide(Joint& joint, const auto& visit) {
+  if (auto* slide = std::get_if<PrismaticJoint>(&joint)) visit(*slide);
+  if (auto* slide = std::get_if<CylindricalJoint>(&joint)) visit(*slide);
+}
+
 }  // namespace
 
 SceneBuilder::SceneBuilder(std::string name) {
@@ -99,9 +105,8 @@ Vec3 SceneBuilder::zero_of(const HingeJoint& hinge) const {
 
 void SceneBuilder::limit(int joint, double lower, double upper, double restitution) {
   Joint& of = scene_.joints[index(joint)];
-  if (auto* slide = std::get_if<PrismaticJoint>(&of)) {
-    slide->limit = TravelLimit{{lower, upper, restitution}};
-  } else if (auto* hinge = std::get_if<HingeJoint>(&of)) {
+  visit_slide(of, [&](auto& slide) { slide.limit = TravelLimit{{lower, upper, restitution}}; });
+  if (auto* hinge = std::get_if<HingeJoint>(&of)) {
     const Vec3 zero = zero_of(*hinge);
     hinge->limit = AngleLimit{{lower, upper, restitution},
                               axis_in(scene_, hinge->a, zero),
@@ -111,14 +116,13 @@ void SceneBuilder::limit(int joint, double lower, double upper, double restituti
 
 void SceneBuilder::drive(int joint, double velocity, double effort) {
   Joint& of = scene_.joints[index(joint)];
-  if (auto* slide = std::get_if<PrismaticJoint>(&of))
-    slide->motor = LinearMotor{{velocity, effort}};
+  visit_slide(of, [&](auto& slide) { slide.motor = LinearMotor{{velocity, effort}}; });
   if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->motor = AngularMotor{{velocity, effort}};
 }
 
 void SceneBuilder::drive(int joint, const Drive& by) {
   Joint& of = scene_.joints[index(joint)];
-  if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->drive = LinearDrive{by};
+  visit_slide(of, [&](auto& slide) { slide.drive = LinearDrive{by}; });
   if (auto* hinge = std::get_if<HingeJoint>(&of)) {
     const Vec3 zero = zero_of(*hinge);
     hinge->drive =
@@ -128,7 +132,7 @@ void SceneBuilder::drive(int joint, const Drive& by) {
 
 void SceneBuilder::add_spring(int joint, const Spring& spring) {
   Joint& of = scene_.joints[index(joint)];
-  if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->spring = LinearSpring{spring};
+  visit_slide(of, [&](auto& slide) { slide.spring = LinearSpring{spring}; });
   if (auto* hinge = std::get_if<HingeJoint>(&of)) {
     const Vec3 zero = zero_of(*hinge);
     hinge->spring =
@@ -138,13 +142,13 @@ void SceneBuilder::add_spring(int joint, const Spring& spring) {
 
 void SceneBuilder::rub(int joint, double effort) {
   Joint& of = scene_.joints[index(joint)];
-  if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->friction = effort;
+  visit_slide(of, [&](auto& slide) { slide.friction = effort; });
   if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->friction = effort;
 }
 
 void SceneBuilder::add_armature(int joint, double inertia) {
   Joint& of = scene_.joints[index(joint)];
-  if (auto* slide = std::get_if<PrismaticJoint>(&of)) slide->armature = inertia;
+  visit_slide(of, [&](auto& slide) { slide.armature = inertia; });
   if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->armature = inertia;
 }
 
@@ -159,6 +163,24 @@ int SceneBuilder::add_weld(int a, int b, const Vec3& point) {
   WeldJoint joint;
   place(scene_, a, b, point, joint);
   fix_axes(scene_, Vec3::UnitX(), joint);
+  return add(Joint(std::move(joint)));
+}
+
+int SceneBuilder::add_universal(int a, int b, const Vec3& point, const Vec3& axis_a,
+                                const Vec3& axis_b) {
+  UniversalJoint joint;
+  place(scene_, a, b, point, joint);
+  const Vec3 first = axis_a.normalized();
+  joint.axis_a = axis_in(scene_, a, first);
+  joint.axis_b = axis_in(scene_, b, axis_b - first * first.dot(axis_b));
+  return add(Joint(std::move(joint)));
+}
+
+int SceneBuilder::add_cylindrical(int a, int b, const Vec3& point, const Vec3& axis) {
+  CylindricalJoint joint;
+  place(scene_, a, b, point, joint);
+  joint.axis_a = axis_in(scene_, a, axis);
+  joint.axis_b = axis_in(scene_, b, axis);
   return add(Joint(std::move(joint)));
 }
 

@@ -28,7 +28,8 @@ class SceneBuilder {
   /// A hinge: like a ball joint, but a rotates relative to b only about an axis. @param axis world,
   /// of any length [-]
   int add_hinge(int a, int b, const Vec3& point, const Vec3& axis);
-  /// Bounds the angle of a hinge, 0 in the current poses, or the travel of a slide from its anchor
+  /// Bounds the angle of a hinge, 0 in the current poses, or the travel of a slide (prismatic or
+  /// cylindrical) from its anchor
   /// on b. @param joint its index  @param lower, upper [rad or m]  @param restitution [-]
   void limit(int joint, double lower, double upper, double restitution = 0.0);
   /// Turns a hinge, or moves a slide. @param velocity of a relative to b [rad/s or m/s]
@@ -47,6 +48,11 @@ class SceneBuilder {
   int add_prismatic(int a, int b, const Vec3& point, const Vec3& axis);
   /// A weld at a point of the world: a keeps its position and orientation relative to b.
   int add_weld(int a, int b, const Vec3& point);
+  /// Two bodies turn about crossing axes at a point: one in a, one in b, both in the world now. The
+  /// second is made perpendicular to the first.
+  int add_universal(int a, int b, const Vec3& point, const Vec3& axis_a, const Vec3& axis_b);
+  /// A point of a slides along an axis of b, and a turns about it.
+  int add_cylindrical(int a, int b, const Vec3& point, const Vec3& axis);
   /// A rod without mass from a point of b to a point of a, both in the world [m].
   int add_distance(int a, int b, const Vec3& on_a, const Vec3& on_b);
 

@@ -48,6 +48,14 @@ std::optional<std::string> parallel_fault(const Vec3& u, const Vec3& v) {
          number_text(kMaxAxisAngleSine);
 }
 
+/// The fault of two directions that a joint keeps perpendicular; nothing if they nearly are.
+std::optional<std::string> crossing_fault(const Vec3& u, const Vec3& v) {
+  const double cosine = std::abs(u.dot(v));
+  if (cosine <= kMaxAxisAngleSine) return std::nullopt;
+  return "start at an angle with cosine " + number_text(cosine) + ", which is more than " +
+         number_text(kMaxAxisAngleSine);
+}
+
 /// @param apart from the anchor on b to that on a, world [m]
 /// @param gap by which a slide may start beyond its bounds [m]
 void check_limit_start(const Joint& joint, const Quat& q_a, const Quat& q_b, const Vec3& apart,
@@ -108,6 +116,10 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
       check_limit_start(scene.joints[i], a.q, b.q, apart, largest_gap(scene, j), i, problems);
     }
     check_parallel(axes_of(scene.joints[i]), "the axes ");
+    if (const auto pair = crossing_axes_of(scene.joints[i])) {
+      const auto fault = crossing_fault(a.q * pair->a, b.q * pair->b);
+      if (fault) problems.push_back({pointer_to("/joints", i), "the axes " + *fault});
+    }
     check_parallel(across_of(scene.joints[i]), "the directions across the axes ");
   }
 }

@@ -12,6 +12,8 @@ const std::vector<ExamEntry>& exam() {
       {"revolute", "Revolute joint, commercial code", exam_revolute},
       {"spherical", "Spherical joint, commercial code", exam_spherical},
       {"distance", "Distance joint, commercial code", exam_distance},
+      {"universal", "Universal joint, commercial code", exam_universal},
+      {"cylindrical", "Cylindrical joint, commercial code", exam_cylindrical},
       {"heavy_top", "Heavy top at 150 rad/s", exam_heavy_top},
       {"symmetric_body", "Free body with two equal moments", exam_symmetric_body},
       {"tumbling", "Free body about its intermediate axis (Dzhanibekov)", exam_tumbling},

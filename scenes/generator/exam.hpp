@@ -15,6 +15,8 @@ ExamCase exam_simple_pendulum();
 ExamCase exam_revolute();
 ExamCase exam_spherical();
 ExamCase exam_distance();
+ExamCase exam_universal();
+ExamCase exam_cylindrical();
 ExamCase exam_four_bar();
 ExamCase exam_bricard();
 ExamCase exam_squeezer();

@@ -94,10 +94,10 @@ TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
   const Outcome run = substep("run \"" + path.string() + "\"");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_EQ(run.out, "");
-  EXPECT_EQ(
-      run.err,
-      path.string() + ": /bodies/0/mass: must be at least 1e-30 (kg), not -1\n" + path.string() +
-          ": /joints/0/type: must be ball, hinge, prismatic, weld or distance, not \"hnige\"\n");
+  EXPECT_EQ(run.err, path.string() + ": /bodies/0/mass: must be at least 1e-30 (kg), not -1\n" +
+                         path.string() +
+                         ": /joints/0/type: must be ball, hinge, prismatic, weld, distance, "
+                         "universal or cylindrical, not \"hnige\"\n");
 }
 
 }  // namespace

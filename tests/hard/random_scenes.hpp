@@ -109,9 +109,43 @@ inline void join(Scene& scene, int a, int b, const Vec3& point) {
     scene.joints.emplace_back(ball);
     return;
   }
+  const Vec3 axis = unit_vector();
+  if (one_in(4)) {
+    Vec3 v1;
+    Vec3 v2;
+    across(axis, v1, v2);
+    UniversalJoint cross;
+    static_cast<JointBase&>(cross) = common;
+    cross.axis_a = turned(a, axis);
+    cross.axis_b = turned(b, v1);
+    cross.angular_compliance = any_compliance();
+    scene.joints.emplace_back(cross);
+    return;
+  }
+  if (one_in(4)) {
+    CylindricalJoint cylinder;
+    static_cast<JointBase&>(cylinder) = common;
+    cylinder.axis_a = turned(a, axis);
+    cylinder.axis_b = turned(b, axis);
+    cylinder.angular_compliance = any_compliance();
+    if (one_in(3)) {
+      const double lower = -number(0.0, 3.0);
+      const double upper = lower + number(-lower + 1e-3, 4.0);
+      cylinder.limit = TravelLimit{{lower, upper, one_in(2) ? 0.0 : number(0.0, 1.0)}};
+    }
+    if (one_in(4)) cylinder.motor = LinearMotor{{number(-50.0, 50.0), magnitude(1e-6, 1e6)}};
+    if (one_in(4)) {
+      cylinder.drive = LinearDrive{{.target = number(-5.0, 5.0),
+                                    .stiffness = magnitude(1e-9, 1e9),
+                                    .damping = magnitude(1e-9, 1e9)}};
+    }
+    if (one_in(4)) cylinder.friction = magnitude(1e-6, 1e6);
+    if (one_in(4)) cylinder.armature = magnitude(1e-12, 1e6);
+    scene.joints.emplace_back(cylinder);
+    return;
+  }
   HingeJoint hinge;
   static_cast<JointBase&>(hinge) = common;
-  const Vec3 axis = unit_vector();
   hinge.axis_a = turned(a, axis);
   hinge.axis_b = turned(b, axis);
   hinge.angular_compliance = any_compliance();

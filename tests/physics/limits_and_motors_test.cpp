@@ -529,10 +529,17 @@ TEST(Motors, StallUnderALoadThatIsTooLarge) {
 TEST(Limits, ASlideReboundsAsTheCoefficientSays) {
   const Vec3 rail = Vec3(4.0, -6.0, 3.0).normalized();
   const double a = -kGravity * rail.y();
-  for (const double e : {0.0, 0.5, 1.0}) {
+  for (const auto& [e, turns] :
+       {std::pair{0.0, false}, {0.5, false}, {1.0, false}, {0.0, true}, {0.5, true}, {1.0, true}}) {
     SceneBuilder builder("slide");
-    const int box = builder.add_body(Box{{0.2, 0.1, 0.3}}, 3.0, {0.3, 0.2, 0.4});
-    const int slide = builder.add_prismatic(box, kWorld, Vec3::Zero(), rail);
+    // On a cylindrical joint it turns about the rail at a constant rate.
+    const int box =
+        builder.add_body(Box{{0.2, 0.1, 0.3}}, 3.0, turns ? Vec3(0.4 * rail) : Vec3(0.3, 0.2, 0.4));
+    builder.body(box).orientation =
+        turns ? Quat::FromTwoVectors(Vec3::UnitZ(), rail) : Quat(1, 0, 0, 0);
+    if (turns) builder.body(box).angular_velocity = 3.0 * rail;
+    const int slide = turns ? builder.add_cylindrical(box, kWorld, Vec3::Zero(), rail)
+                            : builder.add_prismatic(box, kWorld, Vec3::Zero(), rail);
     builder.limit(slide, -5.0, 0.7, e);
     const Scene scene = *builder.build();
     const Vec3 start = scene.bodies[0].position;
@@ -554,22 +561,26 @@ TEST(Limits, ASlideReboundsAsTheCoefficientSays) {
 TEST(Motors, PushASlideWithTheirLargestForce) {
   constexpr double kForce = 6.0;
   constexpr double kVelocity = 1.5;
-  SceneBuilder builder("slide");
-  const int box = builder.add_body(Box{{0.2, 0.1, 0.3}}, 3.0, {0.3, 0.2, 0.4});
-  const int slide = builder.add_prismatic(box, kWorld, Vec3::Zero(), Vec3::UnitX());
-  builder.drive(slide, kVelocity, kForce);
-  const Scene scene = *builder.build();
-  for (const JointMethod& method : joint_methods()) {
-    const double error =
-        error_after(scene, method.settings, 0.7, [&](const State& state, double t) {
-          return std::abs(state.x[0].x() - 0.3 - 0.5 * kForce / 3.0 * t * t);
-        });
-    EXPECT_LT(error, method.order == 1 ? 0.7 * kForce / 3.0 * kRodFrame / 8.0 : 1e-4)
-        << method.name;
-    Simulator simulator = simulator_of(scene, method.settings);
-    for (int i = 0; i < 60; ++i) ASSERT_EQ(simulator.step().status, StepStatus::kOk);
-    EXPECT_NEAR(simulator.state().u[0].x(), kVelocity, 1e-6) << method.name;
-  }
+  for (const bool turns : {false, true})
+    for (const JointMethod& method : joint_methods()) {
+      SceneBuilder builder("slide");
+      const int box = builder.add_body(Box{{0.2, 0.1, 0.3}}, 3.0,
+                                       turns ? Vec3(0.3, 0.0, 0.0) : Vec3(0.3, 0.2, 0.4));
+      if (turns) builder.body(box).angular_velocity = {4.0, 0.0, 0.0};
+      const int slide = turns ? builder.add_cylindrical(box, kWorld, Vec3::Zero(), Vec3::UnitX())
+                              : builder.add_prismatic(box, kWorld, Vec3::Zero(), Vec3::UnitX());
+      builder.drive(slide, kVelocity, kForce);
+      const Scene scene = *builder.build();
+      const double error =
+          error_after(scene, method.settings, 0.7, [&](const State& state, double t) {
+            return std::abs(state.x[0].x() - 0.3 - 0.5 * kForce / 3.0 * t * t);
+          });
+      EXPECT_LT(error, method.order == 1 ? 0.7 * kForce / 3.0 * kRodFrame / 8.0 : 1e-4)
+          << method.name;
+      Simulator simulator = simulator_of(scene, method.settings);
+      for (int i = 0; i < 60; ++i) ASSERT_EQ(simulator.step().status, StepStatus::kOk);
+      EXPECT_NEAR(simulator.state().u[0].x(), kVelocity, 1e-6) << method.name;
+    }
 }
 
 // A motor drives a rod into its limit, which carries its whole torque.

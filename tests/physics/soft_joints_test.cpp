@@ -49,6 +49,18 @@ Joint soft_joint(Random& random, const Scene& scene, std::size_t kind, int a, in
     kind == 2 ? fix(PrismaticJoint{}) : fix(WeldJoint{});
   } else if (kind == 4) {
     joint = DistanceJoint{};
+  } else if (kind == 5) {
+    UniversalJoint cross;
+    cross.axis_a = local(a, axis);
+    cross.axis_b = local(b, side);
+    cross.angular_compliance = uniform(random, 0.002, 0.01);
+    joint = cross;
+  } else if (kind == 6) {
+    CylindricalJoint cylinder;
+    cylinder.axis_a = local(a, axis);
+    cylinder.axis_b = local(b, axis);
+    cylinder.angular_compliance = uniform(random, 0.002, 0.01);
+    joint = cylinder;
   }
   base(joint).name = "joint " + std::to_string(a);
   base(joint).a = a;
@@ -64,13 +76,13 @@ Joint soft_joint(Random& random, const Scene& scene, std::size_t kind, int a, in
 }
 
 /// Three boxes that hang from the world by three kinds of joints in a row: ball, hinge, slide,
-/// weld, spring.
+/// weld, spring, universal, cylindrical.
 Scene soft_chain(Random& random) {
   Scene scene;
   scene.frame = 1.0 / 60.0;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   scene.gravity = {0.0, -kGravity, 0.0};
-  const auto first = static_cast<std::size_t>(uniform(random, 0.0, 5.0));
+  const auto first = static_cast<std::size_t>(uniform(random, 0.0, 7.0));
   Vec3 end = Vec3::Zero();
   for (int i = 0; i < 3; ++i) {
     const Vec3 half{uniform(random, 0.2, 0.4), uniform(random, 0.1, 0.2),
@@ -80,7 +92,7 @@ Scene soft_chain(Random& random) {
     const Vec3 arm = body.orientation * Vec3(half.x(), 0.0, 0.0);
     body.position = end + arm;
     scene.bodies.push_back(body);
-    scene.joints.push_back(soft_joint(random, scene, (first + index(i)) % 5, i, i - 1, end));
+    scene.joints.push_back(soft_joint(random, scene, (first + index(i)) % 7, i, i - 1, end));
     end += 2.0 * arm;
   }
   scene.criteria.track = 2;

@@ -28,7 +28,8 @@ Scene joined(Random& random, bool to_world) {
   joint.b = to_world ? kWorld : 1;
   joint.anchor_a = random_vector(random);
   joint.anchor_b = random_vector(random);
-  if constexpr (std::is_same_v<JointType, HingeJoint>) {
+  if constexpr (
+      requires { joint.axis_a; } && !requires { joint.across_a; }) {
     joint.axis_a = random_vector(random).normalized();
     joint.axis_b = random_vector(random).normalized();
   }
@@ -69,6 +70,8 @@ TEST(JointTable, AnEntryWithoutAnOperationDoesNotCompile) {
   static_assert(JointRows<PrismaticRows, PrismaticJoint>);
   static_assert(JointRows<WeldRows, WeldJoint>);
   static_assert(JointRows<DistanceRows, DistanceJoint>);
+  static_assert(JointRows<UniversalRows, UniversalJoint>);
+  static_assert(JointRows<CylindricalRows, CylindricalJoint>);
   static_assert(!JointRows<WithoutCurvature, BallJoint>);
   static_assert(!JointRows<WithoutCouple, HingeJoint>);
   EXPECT_EQ(kind_of(BallJoint{}), BlockKind{0});
@@ -89,6 +92,20 @@ TEST(PrismaticJoint, GradientAndStiffnessMatchFiniteDifferences) {
 TEST(WeldJoint, GradientAndStiffnessMatchFiniteDifferences) { gradient_and_stiffness<WeldJoint>(); }
 TEST(DistanceJoint, GradientAndStiffnessMatchFiniteDifferences) {
   gradient_and_stiffness<DistanceJoint>();
+}
+
+TEST(UniversalJoint, GradientAndStiffnessMatchFiniteDifferences) {
+  gradient_and_stiffness<UniversalJoint>();
+}
+TEST(CylindricalJoint, GradientAndStiffnessMatchFiniteDifferences) {
+  gradient_and_stiffness<CylindricalJoint>();
+}
+
+void close(CylindricalJoint& joint, const State& state) {
+  const Quat turn = state.q[0].conjugate() * state.q[1];
+  joint.axis_a = turn * joint.axis_b;
+  joint.anchor_a = state.q[0].conjugate() * (state.x[1] - state.x[0]) +
+                   turn * (joint.anchor_b + 0.7 * joint.axis_b);
 }
 
 void close(HingeJoint& joint, const State& state) {
@@ -167,6 +184,44 @@ TEST(PrismaticJoint, MeanStiffnessHasNoOrder) {
   mean_stiffness_has_no_order<PrismaticRows, PrismaticJoint>();
 }
 
+TEST(CylindricalJoint, MeanStiffnessHasNoOrder) {
+  mean_stiffness_has_no_order<CylindricalRows, CylindricalJoint>();
+}
+
+// The joint with a and b exchanged is the same constraint, even off it.
+TEST(UniversalJoint, StiffnessHasNoOrder) {
+  Random random(9);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene = joined<UniversalJoint>(random, false);
+    const State state = initial_state(scene);
+    Blocks blocks;
+    joint_rows(scene)(state, blocks);
+    Block& block = blocks.all()[0];
+    for (int row = 0; row < block.rows; ++row) block.lambda[row] = uniform(random, 0.5, 2.0);
+    auto& joint = std::get<UniversalJoint>(scene.joints[0]);
+    std::swap(joint.a, joint.b);
+    std::swap(joint.anchor_a, joint.anchor_b);
+    std::swap(joint.axis_a, joint.axis_b);
+    Blocks exchanged;
+    joint_rows(scene)(state, exchanged);
+    Block& other = exchanged.all()[0];
+    for (int row = 0; row < 3; ++row) other.lambda[row] = -block.lambda[row];
+    other.lambda[3] = block.lambda[3];
+    StiffnessMatrix K;
+    StiffnessMatrix K_other;
+    for (StiffnessMatrix* of : {&K, &K_other}) of->clear(2);
+    UniversalRows::stiffness(block, K);
+    UniversalRows::stiffness(other, K_other);
+    for (int row = 0; row < 2; ++row) {
+      EXPECT_LT((force_on(blocks, row) - force_on(exchanged, row)).norm(), 1e-12);
+      for (int col = 0; col < 2; ++col) {
+        EXPECT_GT(K.block(row, col).norm(), 1e-3);
+        EXPECT_LT((K.block(row, col) - K_other.block(row, col)).norm(), 1e-12) << row << col;
+      }
+    }
+  }
+}
+
 /// d2phi/dt2 of a joint against its errors a little earlier and later, at constant velocities.
 template <class JointType>
 void curvature() {
@@ -206,6 +261,8 @@ TEST(HingeJoint, CurvatureMatchesFiniteDifferences) { curvature<HingeJoint>(); }
 TEST(PrismaticJoint, CurvatureMatchesFiniteDifferences) { curvature<PrismaticJoint>(); }
 TEST(WeldJoint, CurvatureMatchesFiniteDifferences) { curvature<WeldJoint>(); }
 TEST(DistanceJoint, CurvatureMatchesFiniteDifferences) { curvature<DistanceJoint>(); }
+TEST(UniversalJoint, CurvatureMatchesFiniteDifferences) { curvature<UniversalJoint>(); }
+TEST(CylindricalJoint, CurvatureMatchesFiniteDifferences) { curvature<CylindricalJoint>(); }
 
 /// The stated change of a joint type's row forces as bodies move, and their couple and force,
 /// against the gradients before and after.
@@ -255,6 +312,8 @@ TEST(HingeJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<HingeJoint>();
 TEST(PrismaticJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<PrismaticJoint>(); }
 TEST(WeldJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<WeldJoint>(); }
 TEST(DistanceJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<DistanceJoint>(); }
+TEST(UniversalJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<UniversalJoint>(); }
+TEST(CylindricalJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<CylindricalJoint>(); }
 
 TEST(HingeJoint, VectorsAcrossTheAxisAreOrthonormal) {
   Random random(2);

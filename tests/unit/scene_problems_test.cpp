@@ -224,17 +224,17 @@ INSTANTIATE_TEST_SUITE_P(
                 R"("type": "sphere")",
                 R"("type": "cylinder")",
                 {"/bodies/2/shape/type: must be sphere, box or plane, not \"cylinder\""}},
+        BadFile{"JointOfNoKind",
+                R"("type": "hinge")",
+                R"("type": "slider")",
+                {"/joints/0/type: must be ball, hinge, prismatic, weld, distance, universal or "
+                 "cylindrical, not \"slider\""}},
         BadFile{
-            "JointOfNoKind",
-            R"("type": "hinge")",
-            R"("type": "slider")",
-            {"/joints/0/type: must be ball, hinge, prismatic, weld or distance, not \"slider\""}},
-        BadFile{"EffectOfNoKind",
-                R"("friction"],)",
-                R"("friction", "magnetism"],)",
-                {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
-                 "external, limits, motors, drives, joint_friction, armature or springs, not "
-                 "\"magnetism\""}},
+            "EffectOfNoKind",
+            R"("friction"],)",
+            R"("friction", "magnetism"],)",
+            {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
+             "external, limits, motors, drives, joint_friction, armature or springs, not \"magnetism\""}},
         BadFile{"EffectOfForcesMissing",
                 R"("shape": {"type": "sphere")",
                 R"("force": [0, 0, 0], "torque": [0, 1, 0], "shape": {"type": "sphere")",

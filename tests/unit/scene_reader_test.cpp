@@ -58,7 +58,8 @@ TEST(SceneReader, RefusesTextsThatAreNoScenes) {
   EXPECT_EQ(only(""), "the file is empty");
   EXPECT_EQ(only(" \n\t"), "the file is empty");
   for (const char* xml : {"<mujoco/>", "\n <?xml version=\"1.0\"?><robot name=\"a\"></robot>"}) {
-    EXPECT_EQ(only(xml), "is XML: scenes are JSON; `substep import` makes one of a model in MJCF or URDF");
+    EXPECT_EQ(only(xml),
+              "is XML: scenes are JSON; `substep import` makes one of a model in MJCF or URDF");
   }
   EXPECT_EQ(only("[1, 2]"), "must be an object, not [1,2]");
   EXPECT_EQ(only("3"), "must be an object, not 3");
@@ -173,6 +174,51 @@ TEST(SceneReader, RefusesAPrismaticJointThatIsOffItsAxisOrHasNone) {
   EXPECT_EQ(problems_of(with_slider("[1, 0, 0]", "[-0.5, 3, 0]")),
             List{"/joints/0: the directions across the axes start at an angle with sine 1, which "
                  "is more than 0.1"});
+}
+
+/// The valid scene with another joint instead of its hinge. @param rest its keys beyond the anchors
+std::string with_joint(const std::string& type, const std::string& rest) {
+  const std::size_t begin = kGood.find(R"({"name": "hinge")");
+  const std::size_t end = kGood.find("},", begin);
+  std::string text = kGood;
+  return text.replace(begin, end - begin,
+                      R"({"name": "joint", "type": ")" + type +
+                          R"(", "a": "arm", "b": "world", "anchor_a": [-0.5, 0, 0], )"
+                          R"("anchor_b": [-0.5, 3, 0], )" +
+                          rest);
+}
+
+TEST(SceneReader, ReadsUniversalAndCylindricalJointsAndWritesThemBack) {
+  const std::string pins = R"("axis_a": [1, 0, 0], "axis_b": [0, 0, 1])";
+  const SceneResult cross =
+      read_scene(with_joint("universal", pins + R"(, "angular_compliance": 1e-6)"));
+  ASSERT_TRUE(cross.scene) << to_string(cross.problems.front());
+  EXPECT_EQ(std::get<UniversalJoint>(cross.scene->joints[0]).axis_b, Vec3::UnitZ());
+  EXPECT_EQ(std::get<UniversalJoint>(cross.scene->joints[0]).angular_compliance, 1e-6);
+  const std::string axes = R"("axis_a": [1, 0, 0], "axis_b": [1, 0, 0])";
+  std::string text =
+      with_joint("cylindrical", axes + R"(, "limit": {"lower": -1, "upper": 2}, "friction": 3)");
+  const std::string effects = R"("joints", )";
+  text.replace(text.find(effects), effects.size(), R"("joints", "limits", "joint_friction", )");
+  const SceneResult cylinder = read_scene(text);
+  ASSERT_TRUE(cylinder.scene) << to_string(cylinder.problems.front());
+  EXPECT_EQ(std::get<CylindricalJoint>(cylinder.scene->joints[0]).limit->upper, 2.0);
+  for (const SceneResult* result : {&cross, &cylinder}) {
+    const std::string written = write_scene(*result->scene);
+    EXPECT_EQ(write_scene(*read_scene(written).scene), written);
+  }
+}
+
+TEST(SceneReader, RefusesUniversalAndCylindricalJointsWithTheWrongAxesOrKeys) {
+  EXPECT_EQ(problems_of(with_joint("universal", R"("axis_a": [0, 0.6, 0.8], "axis_b": [0, 0, 1])")),
+            List{"/joints/0: the axes start at an angle with cosine 0.8, which is more than 0.1"});
+  EXPECT_EQ(problems_of(with_joint("cylindrical", R"("axis_a": [0, 1, 0], "axis_b": [0, 0, 1])")),
+            List{"/joints/0: the axes start at an angle with sine 1, which is more than 0.1"});
+  EXPECT_EQ(
+      problems_of(with_joint("universal", R"("axis_a": [1, 0, 0], "axis_b": [0, 0, 1], )"
+                                          R"("friction": 1)")),
+      List{"/joints/0/friction: unknown key (known here: name, type, a, b, anchor_a, anchor_b, "
+           "compliance, axis_a, axis_b or angular_compliance)"});
 }
 
 TEST(SceneReader, NeedsABodyThatMoves) {

@@ -230,8 +230,9 @@ class LinearModel::Builder {
         least = -most;
         given = speed < 0.0 ? most : least;
         return std::abs(speed) <= kSlow;
-      case Acts::kDrive: {
-        const Drive& drive = stage_->drive(block);
+      case Acts::kDrive:
+      case Acts::kSpring: {
+        const Drive drive = stage_->drive(block);
         given = drive.stiffness * (drive.target - block.phi[0]) +
                 drive.damping * (drive.velocity - speed);
         if (drive.effort) given = std::clamp(given, -*drive.effort, *drive.effort);
@@ -377,7 +378,7 @@ class LinearModel::Builder {
       if (is_armature(block)) {
         model.mass_ += block.armature * coordinate * coordinate.transpose();
       } else if (is_drive(block)) {
-        const Drive& drive = stage_->drive(block);
+        const Drive drive = stage_->drive(block);
         model.drives_.push_back(
             {joint, coordinate, 0.0, drive.stiffness, drive.damping, is_joint_spring(block)});
       }

@@ -71,24 +71,24 @@ inline Scene in_units(Scene scene, double mass, double length, double time = 1.0
           }
           if constexpr (requires { of.limit; }) {
             const bool slides = of.kSlides;
+            const double unit = slides ? length : 1.0;
+            const double effort = mass * speed / time * (slides ? 1.0 : length);
             if (of.limit && slides) {
               of.limit->lower *= length;
               of.limit->upper *= length;
             }
             if (of.motor) {
               of.motor->velocity *= slides ? speed : 1.0 / time;
-              of.motor->effort *= mass * speed / time * (slides ? 1.0 : length);
+              of.motor->effort *= effort;
             }
             if (of.armature) *of.armature *= mass * (slides ? 1.0 : length * length);
-            if (of.friction) *of.friction *= mass * speed / time * (slides ? 1.0 : length);
+            if (of.friction) *of.friction *= effort;
             if (of.spring) {
               of.spring->rest *= unit;
               of.spring->stiffness *= effort / unit;
               of.spring->damping *= effort / unit * time;
             }
             if (of.drive) {
-              const double effort = mass * speed / time * (slides ? 1.0 : length);
-              const double unit = slides ? length : 1.0;
               of.drive->target *= unit;
               of.drive->velocity *= unit / time;
               of.drive->stiffness *= effort / unit;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/lab/doctor.hpp"
@@ -129,6 +130,35 @@ TEST(Doctor, TellsDrivesByTheirEngine) {
   SceneBuilder with = driven_rod(2000.0, 20.0);
   with.add_armature(0, 1.0001 * armature);
   EXPECT_EQ(at_start(*with.build(), asked, "mujoco").verdict, Diagnosis::Verdict::kHolds);
+}
+
+// MuJoCo's Euler takes the damping of joints implicitly, and that of actuators not.
+TEST(Doctor, TellsSpringsFromDrives) {
+  const auto rod_with = [](std::optional<Spring> spring, std::optional<Drive> drive) {
+    SceneBuilder builder("sprung rod");
+    const int rod = builder.add_body(Box{{0.5, 0.05, 0.05}}, 1.0, {0.5, 0.0, 0.0});
+    const int hinge = builder.add_hinge(rod, kWorld, Vec3::Zero(), Vec3::UnitZ());
+    if (spring) builder.add_spring(hinge, *spring);
+    if (drive) builder.drive(hinge, *drive);
+    builder.scene().gravity.setZero();
+    return *builder.build();
+  };
+  const Scene sprung = rod_with(Spring{0.0, 2000.0, 20.0}, std::nullopt);
+  const double inertia = sprung.bodies[0].inertia.z() + 0.25;
+  const Diagnosis of_spring = at_start(sprung, 0.2, "mujoco");
+  EXPECT_NEAR(of_spring.step, largest_step(OneCoordinate{inertia, 2000.0, 0.0, 20.0}), 1e-9);
+  EXPECT_EQ(of_spring.limited_by, "the spring of joint_0 at the start");
+  EXPECT_FALSE(std::isfinite(at_start(sprung, 0.2).step));
+  EXPECT_FALSE(std::isfinite(at_start(sprung, 0.2, "substep", 4).step)) << "it is in the engine";
+  const Scene both = rod_with(Spring{0.0, 1500.0, 5.0}, Drive{.stiffness = 500.0, .damping = 15.0});
+  const Diagnosis of_both = at_start(both, 0.2, "mujoco");
+  ASSERT_EQ(of_both.drives.size(), 1U);
+  EXPECT_NEAR(of_both.step, largest_step(OneCoordinate{inertia, 2000.0, 15.0, 5.0}), 1e-9);
+  EXPECT_NEAR(of_both.drives[0].step, of_both.step, 1e-9) << "the rule of one coordinate";
+  EXPECT_EQ(of_both.limited_by, "the drive and spring of joint_0 at the start");
+  const Diagnosis held = at_start(both, 0.2, "substep", 4);
+  EXPECT_NEAR(held.drives[0].held_step, largest_step_of_effort({inertia, 500.0, 15.0, 4}), 1e-9)
+      << "of the drive alone";
 }
 
 // A mode of several drives, none of which has half of its stiffness, is limited by drives.

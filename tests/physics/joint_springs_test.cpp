@@ -79,7 +79,9 @@ TEST(JointSprings, StoreTheEnergyOfTheirStretch) {
     const double inertia = hinged ? built.bodies[0].inertia.z() : built.bodies[0].mass;
     const double start = 0.5 * inertia * speed * speed + 0.5 * 2.0 * 0.04;
     const double farthest = std::sqrt(start);  // of k x^2/2 = start
-    if (hinged) ASSERT_GT(farthest, 4.0 * std::numbers::pi);
+    if (hinged) {
+      ASSERT_GT(farthest, 4.0 * std::numbers::pi);
+    }
     Simulator simulator(std::make_shared<const Scene>(built));
     simulator.set_settings(steady_at(64));
     EXPECT_NEAR(simulator.observe().springs, 0.5 * 2.0 * 0.04, 1e-12);

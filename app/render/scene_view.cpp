@@ -315,6 +315,9 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
     const auto b = static_cast<std::size_t>(j.b);
     const Vec3 from = j.b == kWorld ? j.anchor_b : poses.x[b] + poses.q[b] * j.anchor_b;
     if (length_of(joint) && from != x) add_rod(out.boxes, from, x, 0.15 * bracket, palette.joint);
+    if (rope_length_of(joint) && from != x) {
+      add_rod(out.boxes, from, x, 0.07 * bracket, palette.joint);
+    }
     if (!options.joints) continue;
     const double r = 1.25 * std::min(thin, 0.25 * home_.radius);
     if (is_weld(joint)) {

@@ -76,21 +76,25 @@ CoordinateStage::CoordinateStage(const Scene& scene) : scene_(scene) {
                            kind_of_coordinate<Rows>(), geometry, Rows::width(a), armature});
       };
       if (own->limit && scene.effects.limits) {
-        add(Acts::kLower, Rows::geometry(*own, *own->limit, false));
+        if constexpr (!std::is_same_v<Rows, RopeLength>) {
+          add(Acts::kLower, Rows::geometry(*own, *own->limit, false));
+        }
         add(Acts::kUpper, Rows::geometry(*own, *own->limit, true));
         has_limits_ = true;
       }
-      if (own->motor && scene.effects.motors) add(Acts::kMotor, Rows::geometry(*own));
-      if (own->drive && scene.effects.drives) {
-        add(Acts::kDrive, Rows::geometry(*own, *own->drive));
-      }
-      if (own->friction && scene.effects.joint_friction) {
-        add(Acts::kFriction, Rows::geometry(*own));
-      }
-      if (armature > 0.0) add(Acts::kArmature, Rows::geometry(*own));
-      if (own->spring && scene.effects.springs) {
-        add(Acts::kSpring, Rows::geometry(*own, *own->spring));
-        has_springs_ = true;
+      if constexpr (requires { own->motor; }) {
+        if (own->motor && scene.effects.motors) add(Acts::kMotor, Rows::geometry(*own));
+        if (own->drive && scene.effects.drives) {
+          add(Acts::kDrive, Rows::geometry(*own, *own->drive));
+        }
+        if (own->friction && scene.effects.joint_friction) {
+          add(Acts::kFriction, Rows::geometry(*own));
+        }
+        if (armature > 0.0) add(Acts::kArmature, Rows::geometry(*own));
+        if (own->spring && scene.effects.springs) {
+          add(Acts::kSpring, Rows::geometry(*own, *own->spring));
+          has_springs_ = true;
+        }
       }
     });
   }

@@ -15,6 +15,7 @@
 #include "core/constraints/hinge_angle.hpp"
 #include "core/constraints/hinge_joint.hpp"
 #include "core/constraints/prismatic_joint.hpp"
+#include "core/constraints/rope_joint.hpp"
 #include "core/constraints/slide_travel.hpp"
 #include "core/constraints/stiffness_matrix.hpp"
 #include "core/constraints/universal_joint.hpp"
@@ -58,11 +59,11 @@ concept JointRows = PoseRows<Rows> && requires(const J& joint, Block& block) {
 
 /// In the order of the Joint variant.
 using JointTable = std::tuple<BallRows, HingeRows, PrismaticRows, WeldRows, DistanceRows,
-                              UniversalRows, CylindricalRows>;
+                              UniversalRows, CylindricalRows, RopeRows>;
 
 /// Coordinates of joints that limits, motors, drives and dry friction act on, one row each: of
 /// joints of the type Owner.
-using CoordinateTable = std::tuple<HingeAngle, SlideTravel, CylinderTravel>;
+using CoordinateTable = std::tuple<HingeAngle, SlideTravel, CylinderTravel, RopeLength>;
 
 inline constexpr std::size_t kJointKinds = std::variant_size_v<Joint>;
 static_assert(std::tuple_size_v<JointTable> == kJointKinds);

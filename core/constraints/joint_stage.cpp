@@ -12,8 +12,12 @@ JointStage::JointStage(const Scene& scene) : scene_(scene) {
     placed.body_b = base(joint).b;
     placed.kind = kind_of(joint);
     placed.largest_gap = largest_gap(scene, base(joint));
-    with_joint_rows(joint,
-                    [&](auto rows, const auto& own) { placed.geometry = rows.geometry(own); });
+    with_joint_rows(joint, [&](auto rows, const auto& own) {
+      Block block;
+      rows.constants(own, block);
+      placed.has_rows = block.rows > 0;
+      placed.geometry = rows.geometry(own);
+    });
   }
 }
 
@@ -47,7 +51,9 @@ void JointStage::fill(const State& state, std::span<const Mat3> R_WB, std::size_
 
 void JointStage::append(const Part& part, const State& state, std::span<const Mat3> R_WB,
                         Blocks& blocks) const {
-  for (const int joint : part.joints) fill(state, R_WB, index(joint), blocks.append());
+  for (const int joint : part.joints) {
+    if (joints_[index(joint)].has_rows) fill(state, R_WB, index(joint), blocks.append());
+  }
 }
 
 void JointStage::set_springs(std::size_t joint, bool positions, bool angles) {
@@ -72,6 +78,7 @@ JointErrors JointStage::errors(const State& state, std::span<const Mat3> R_WB) c
   JointErrors errors;
   Block block;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (!joints_[i].has_rows) continue;
     fill(state, R_WB, i, block);
     for (int row = 0; row < block.rows; ++row) {
       const double error = std::abs(block.phi[row]);

@@ -43,6 +43,7 @@ class JointStage {
     int body_b = kWorld;
     BlockKind kind = BlockKind::kFirstJoint;
     JointGeometry geometry;
+    bool has_rows = true;      // not a rope
     bool spring = false;       // in its position rows
     bool turns = false;        // a spring in its angular rows
     double largest_gap = 0.0;  // at which it is torn [m]

@@ -122,7 +122,8 @@ std::pair<double, int> hanging_bound(const Scene& scene) {
     const double force = graph.load(joint) * g;
     add(j.a, j.anchor_a, force);
     add(j.b, j.anchor_b, force);
-    const std::optional<double> length = length_of(joint);
+    std::optional<double> length = length_of(joint);
+    if (!length) length = rope_length_of(joint);
     if (!length) continue;
     for (const int body : {j.a, j.b}) {  // K of a taut rod across it: force/length
       if (is_fixed(scene, body)) continue;

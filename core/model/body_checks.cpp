@@ -164,6 +164,10 @@ std::optional<JointFault> spring_fault(const Joint& joint, const JointAxes& axes
 }  // namespace
 
 std::optional<JointFault> joint_fault(const Joint& joint) {
+  if (rope_length_of(joint) && base(joint).compliance != 0.0) {
+    return JointFault{"compliance", "a rope does not stretch: it must be 0, not " +
+                                        number_text(base(joint).compliance)};
+  }
   const auto axes = axes_of(joint);
   if (!axes) return std::nullopt;
   if (const Limit* limit = limit_of(joint); limit != nullptr && !(limit->lower < limit->upper)) {

@@ -29,7 +29,7 @@ struct JointBase {
 // field(key, number, range) for each number, which may be optional, and field(key, part) for each
 // optional part, which has own_fields() too.
 
-/// Bounds of the angle of a hinge or the travel of a slide.
+/// Bounds of the angle of a hinge, the travel of a slide or the length of a rope.
 struct Limit {
   double lower = 0.0;        // [rad or m]
   double upper = 0.0;        // above lower [rad or m]
@@ -295,8 +295,21 @@ struct CylindricalJoint : JointBase {
   }
 };
 
+/// The two anchors are at most a length apart, like those of a rope without mass: slack below it,
+/// where no force acts, and taut at it. It has no rows but those of its limit.
+struct RopeJoint : JointBase {
+  static constexpr const char* kType = "rope";
+  std::optional<Limit> limit = Limit{.upper = 1.0};  // of the distance [m]; upper is the length
+
+  template <class J, class Field>
+  static void own_fields(J& joint, Field&& field) {
+    field("length", joint.limit->upper, kSizeRange);
+    field("restitution", joint.limit->restitution, kRestitutionRange);
+  }
+};
+
 using Joint = std::variant<BallJoint, HingeJoint, PrismaticJoint, WeldJoint, DistanceJoint,
-                           UniversalJoint, CylindricalJoint>;
+                           UniversalJoint, CylindricalJoint, RopeJoint>;
 
 inline const JointBase& base(const Joint& joint) {
   return std::visit([](const auto& j) -> const JointBase& { return j; }, joint);

@@ -59,6 +59,13 @@ inline std::optional<double> length_of(const Joint& joint) {
       joint);
 }
 
+/// The largest distance of a joint's anchors [m]; nothing if it is no rope.
+inline std::optional<double> rope_length_of(const Joint& joint) {
+  const auto* rope = std::get_if<RopeJoint>(&joint);
+  if (rope == nullptr) return std::nullopt;
+  return rope->limit->upper;
+}
+
 /// True if a joint fixes the position and the orientation of its bodies relative to each other.
 inline bool is_weld(const Joint& joint) {
   const std::optional<JointAxes> axes = axes_of(joint);
@@ -66,12 +73,16 @@ inline bool is_weld(const Joint& joint) {
 }
 
 /// The error part of the vector between a joint's anchors: all of it, for a sliding joint the
-/// component perpendicular to the axis, and for a distance joint what exceeds its length.
+/// component perpendicular to the axis, and for a distance joint or a rope what exceeds its length.
 /// @param apart from the anchor on b to that on a, world [m]  @param q_b orientation of b
 inline Vec3 gap_of(const Joint& joint, const Vec3& apart, const Quat& q_b) {
   if (const std::optional<double> length = length_of(joint)) {
     const double distance = apart.norm();
     return distance > 0.0 ? Vec3((1.0 - *length / distance) * apart) : Vec3(*length, 0.0, 0.0);
+  }
+  if (const std::optional<double> length = rope_length_of(joint)) {
+    const double distance = apart.norm();
+    return distance > *length ? Vec3((1.0 - *length / distance) * apart) : Vec3(Vec3::Zero());
   }
   const std::optional<JointAxes> axes = axes_of(joint);
   if (!axes || !axes->slides) return apart;

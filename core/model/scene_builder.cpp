@@ -184,6 +184,15 @@ int SceneBuilder::add_cylindrical(int a, int b, const Vec3& point, const Vec3& a
   return add(Joint(std::move(joint)));
 }
 
+int SceneBuilder::add_rope(int a, int b, const Vec3& on_a, const Vec3& on_b, double length,
+                           double restitution) {
+  RopeJoint joint;
+  place(scene_, a, b, on_a, joint);
+  joint.anchor_b = point_in(scene_, b, on_b);
+  joint.limit = Limit{.upper = length, .restitution = restitution};
+  return add(Joint(std::move(joint)));
+}
+
 int SceneBuilder::add_distance(int a, int b, const Vec3& on_a, const Vec3& on_b) {
   DistanceJoint joint;
   place(scene_, a, b, on_a, joint);

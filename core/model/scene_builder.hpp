@@ -53,6 +53,10 @@ class SceneBuilder {
   int add_universal(int a, int b, const Vec3& point, const Vec3& axis_a, const Vec3& axis_b);
   /// A point of a slides along an axis of b, and a turns about it.
   int add_cylindrical(int a, int b, const Vec3& point, const Vec3& axis);
+  /// A rope without mass from a point of b to a point of a, both in the world [m].
+  /// @param length its length [m]  @param restitution of a that it stops [-]
+  int add_rope(int a, int b, const Vec3& on_a, const Vec3& on_b, double length,
+               double restitution = 0.0);
   /// A rod without mass from a point of b to a point of a, both in the world [m].
   int add_distance(int a, int b, const Vec3& on_a, const Vec3& on_b);
 

@@ -61,7 +61,7 @@ std::optional<std::string> crossing_fault(const Vec3& u, const Vec3& v) {
 void check_limit_start(const Joint& joint, const Quat& q_a, const Quat& q_b, const Vec3& apart,
                        double gap, std::size_t i, Problems& problems) {
   const Limit* limit = limit_of(joint);
-  if (limit == nullptr) return;
+  if (limit == nullptr || rope_length_of(joint)) return;
   const double middle = 0.5 * (limit->lower + limit->upper);
   const AngleLimit* of_angle = angle_limit_of(joint);
   double from_middle = (q_b * axes_of(joint)->b).dot(apart) - middle;
@@ -101,7 +101,9 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
         j.compliance >=
             scene.frame * scene.frame * (inverse_mass(scene, j.a) + inverse_mass(scene, j.b));
     if (!is_spring && gap > largest_gap(scene, j)) {
-      const char* where = length ? "away from their distance" : "apart";
+      const char* where = rope_length_of(scene.joints[i]) ? "beyond the length of their rope"
+                          : length                        ? "away from their distance"
+                                                          : "apart";
       problems.push_back({pointer_to("/joints", i),
                           format_text("the anchors start %.6g %s, which is more than %.6g (m)", gap,
                                       where, largest_gap(scene, j))});
@@ -141,7 +143,8 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
   };
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     if (!is_sound(scene, sound, i)) continue;
-    if (length_of(scene.joints[i])) continue;  // up to six rods may hold a body
+    // Up to six rods may hold a body.
+    if (length_of(scene.joints[i]) || rope_length_of(scene.joints[i])) continue;
     if (base(scene.joints[i]).compliance == 0.0) note(stiff, i, "compliance", "m/N");
     if (angular_compliance_of(scene.joints[i]) == 0.0) {
       note(stiff_turning, i, "angular_compliance", "rad/(N m)");

@@ -124,8 +124,9 @@ void for_each_joint(const Scene& scene, const State& state, const JointStage& jo
 std::vector<JointStart> joint_starts(const Scene& scene, const State& state) {
   std::vector<JointStart> starts;
   if (!scene.effects.joints || !is_runnable(scene) || !fits(state, scene)) return starts;
+  starts.resize(scene.joints.size());  // a rope has no rows and is closed
   for_each_joint(scene, state, JointStage(scene), [&](const Block& block, HoldingRows holds) {
-    starts.push_back(measured(scene, state, block, holds));
+    starts[static_cast<std::size_t>(block.id)] = measured(scene, state, block, holds);
   });
   return starts;
 }

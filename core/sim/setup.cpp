@@ -141,8 +141,14 @@ ConstraintForces Simulator::constraint_forces() const {
       Vec3 force = lambda[0] * block.n;
       if (block.rows == 3) force += lambda[1] * block.t1 + lambda[2] * block.t2;
       out.contacts.push_back({block.body_a, block.body_b, block.r_a, block.n, force, block.phi[0]});
-    } else if (block.is_bounded()) {  // a row of a coordinate, after its joint
+    } else if (block.is_bounded()) {  // a row of a coordinate, after its joint, if that has rows
+      out.joints.resize(impl_->scene->joints.size());
       JointForce& force = out.joints[index(CoordinateStage::joint_of(block.id))];
+      if (!force.known) {
+        force.known = true;
+        force.time = impl_->state.time;
+        if (!acts_at_end) force.time -= longest_sub_step(block, impl_->state);
+      }
       with_joint_rows(block.kind, [&](auto rows) {
         force.force += rows.force(block, lambda);
         force.torque += rows.torque(block, lambda);

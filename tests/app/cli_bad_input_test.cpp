@@ -97,7 +97,7 @@ TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
   EXPECT_EQ(run.err, path.string() + ": /bodies/0/mass: must be at least 1e-30 (kg), not -1\n" +
                          path.string() +
                          ": /joints/0/type: must be ball, hinge, prismatic, weld, distance, "
-                         "universal or cylindrical, not \"hnige\"\n");
+                         "universal, cylindrical or rope, not \"hnige\"\n");
 }
 
 }  // namespace

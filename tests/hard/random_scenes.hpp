@@ -109,6 +109,15 @@ inline void join(Scene& scene, int a, int b, const Vec3& point) {
     scene.joints.emplace_back(ball);
     return;
   }
+  if (one_in(6)) {
+    RopeJoint rope;
+    static_cast<JointBase&>(rope) = common;
+    rope.compliance = 0.0;
+    rope.limit->upper = magnitude(1e-3, 3.0);
+    if (one_in(2)) rope.limit->restitution = number(0.0, 1.0);
+    scene.joints.emplace_back(rope);
+    return;
+  }
   const Vec3 axis = unit_vector();
   if (one_in(4)) {
     Vec3 v1;

@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "core/lab/exact_motion.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/math/angle.hpp"
 #include "core/model/joint_fields.hpp"
@@ -555,6 +556,129 @@ TEST(Limits, ASlideReboundsAsTheCoefficientSays) {
         EXPECT_LT(error, (e == 0.5 ? 2.0 * a * dt * dt : 0.0) + 2e-5) << n << " " << e;
       }
     }
+  }
+}
+
+/// A ball at an end of a rope, the other end of which is in the origin.
+Scene ball_on_a_rope(const Vec3& at, double length, double e, const Vec3& velocity = Vec3::Zero()) {
+  SceneBuilder builder("ball");
+  const int ball = builder.add_body(Sphere{0.05}, 2.0, at);
+  builder.body(ball).velocity = velocity;
+  builder.add_rope(ball, kWorld, at, Vec3::Zero(), length, e);
+  builder.scene().title = "Ball";
+  return *builder.build();
+}
+
+TEST(Rope, ABallFallsFreelyAndReboundsWhereItIsTaut) {
+  for (const double e : {0.0, 0.5, 1.0}) {
+    const Scene scene = ball_on_a_rope({0.0, -0.1, 0.0}, 0.8, e);
+    for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
+      for (const int n : {0, 1, 4, 16, 64}) {
+        Settings settings = steady_at(n);
+        settings.integrator = integrator;
+        const double error = error_after(scene, settings, 2.0, [&](const State& state, double t) {
+          const double y = -0.1 - bouncing_travel(kGravity, 0.7, e, t);
+          return (state.x[0] - Vec3(0.0, y, 0.0)).norm();
+        });
+        const double dt = scene.frame / std::max(n, 1);
+        EXPECT_LT(error, (e == 0.5 ? 2.0 * kGravity * dt * dt : 0.0) + 2e-5) << n << " " << e;
+      }
+    }
+  }
+}
+
+// With every solver: the force is that of a rod, and the rope is no longer than it may be.
+TEST(Rope, ATautOneIsAPendulumAndCarriesItsWeight) {
+  constexpr double kStart = std::numbers::pi / 3.0;
+  constexpr double kLength = 0.8;
+  const ExactPendulum exact = ExactPendulum::released(std::sqrt(kGravity / kLength), kStart);
+  const auto at = [&](double angle) -> Vec3 {
+    return kLength * Vec3(std::sin(angle), -std::cos(angle), 0.0);
+  };
+  for (const JointMethod& method : joint_methods()) {
+    Settings settings = method.settings;
+    settings.n = 32;
+    const auto error = [&](const State& state, double t) {
+      return (state.x[0] - at(exact.at(t).angle)).norm();
+    };
+    const double off = error_after(ball_on_a_rope(at(kStart), kLength, 0.0), settings, 1.5, error);
+    EXPECT_LT(off, method.order == 1 ? 5e-3 : 2e-4) << method.name;
+    Simulator hanging = simulator_of(ball_on_a_rope(at(0.0), kLength, 0.0), settings);
+    for (int i = 0; i < 30; ++i) ASSERT_EQ(hanging.step().status, StepStatus::kOk);
+    const JointForce force = hanging.constraint_forces().joints.at(0);
+    EXPECT_TRUE(force.known);
+    EXPECT_NEAR(force.force.y(), 2.0 * kGravity, 1e-3) << method.name;
+  }
+}
+
+// Thrown level, it flies freely until the rope is taut, loses its speed along the rope, and gains
+// no energy in the swing after it.
+TEST(Rope, AThrownBallLosesItsSpeedAlongIt) {
+  const Vec3 start{0.0, -0.2, 0.0};
+  const Vec3 thrown{2.0, 0.0, 0.0};
+  constexpr double kLength = 1.0;
+  const auto flight = [&](double t) -> Vec3 {
+    return start + t * thrown - 0.5 * kGravity * t * t * Vec3::UnitY();
+  };
+  double taut = 0.0;
+  double late = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (taut + late);
+    (flight(middle).norm() < kLength ? taut : late) = middle;
+  }
+  const Vec3 velocity = thrown - kGravity * taut * Vec3::UnitY();
+  const double lost = std::pow(velocity.dot(flight(taut)) / kLength, 2);  // of 2 kg [J]
+  for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
+    Settings settings = steady_at(16);
+    settings.integrator = integrator;
+    const Scene scene = ball_on_a_rope(start, kLength, 0.0, thrown);
+    Simulator simulator = simulator_of(scene, settings);
+    const double before = simulator.observe().energy;
+    for (int i = 0; i < 120; ++i) {
+      const FrameReport report = simulator.step();
+      ASSERT_EQ(report.status, StepStatus::kOk);
+      const double t = simulator.state().time;
+      if (t < taut) {
+        EXPECT_LT((simulator.state().x[0] - flight(t)).norm(), 1e-10);
+        EXPECT_NEAR(report.energy, before, 1e-9);
+      } else if (t > taut + scene.frame) {
+        EXPECT_NEAR(report.energy, before - lost, 0.01 * lost) << t;
+        EXPECT_LT(simulator.state().x[0].norm(), kLength + 1e-4);
+      }
+    }
+  }
+}
+
+// Two bodies of unequal moments, off their centres: the rope ends their flight apart.
+TEST(Rope, TwoFreeBodiesKeepTheirMomentum) {
+  for (const double e : {0.0, 0.6}) {
+    SceneBuilder builder("pair");
+    const int a = builder.add_body(Box{{0.1, 0.05, 0.2}}, 1.0, {0.3, 0.1, 0.0});
+    const int b = builder.add_body(Box{{0.05, 0.2, 0.1}}, 3.0, {-0.3, 0.0, 0.1});
+    builder.body(a).velocity = {3.0, 0.5, 0.0};
+    builder.body(b).velocity = {-1.0, 0.0, 0.2};
+    builder.body(b).angular_velocity = {0.5, -0.3, 0.4};
+    builder.add_rope(a, b, {0.35, 0.12, 0.05}, {-0.3, 0.1, 0.1}, 0.9, e);
+    builder.scene().gravity.setZero();
+    const Scene scene = *builder.build();
+    Simulator simulator = simulator_of(scene, steady_at(8));
+    const Momenta start = momenta_of(scene, simulator.state());
+    const double before = simulator.observe().energy;
+    FrameReport report;
+    for (int i = 0; i < 60; ++i) report = simulator.step();
+    EXPECT_LT((momenta_of(scene, simulator.state()).linear - start.linear).norm(), 1e-12);
+    EXPECT_LT(report.energy, 0.95 * before);
+    EXPECT_GT(report.energy, 0.05 * before);
+    const auto& rope = std::get<RopeJoint>(scene.joints[0]);
+    const State& end = simulator.state();
+    const Vec3 apart = end.x[0] + end.q[0] * rope.anchor_a - end.x[1] - end.q[1] * rope.anchor_b;
+    EXPECT_LT(apart.norm(), 0.9 + 1e-3);
+  }
+}
+
+TEST(Rope, ContinuesFromASceneFileBitForBit) {
+  for (const JointMethod& method : joint_methods()) {
+    expect_continues(ball_on_a_rope({0.2, -0.3, 0.0}, 0.5, 0.4), method.settings);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/model/joint_fields.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep::test {
@@ -69,14 +70,16 @@ inline Scene in_units(Scene scene, double mass, double length, double time = 1.0
           if constexpr (requires { of.angular_compliance; }) {
             of.angular_compliance *= compliance / (length * length);
           }
+          [[maybe_unused]] const bool slides = of.kSlides || rope_length_of(joint).has_value();
           if constexpr (requires { of.limit; }) {
-            const bool slides = of.kSlides;
-            const double unit = slides ? length : 1.0;
-            const double effort = mass * speed / time * (slides ? 1.0 : length);
             if (of.limit && slides) {
               of.limit->lower *= length;
               of.limit->upper *= length;
             }
+          }
+          if constexpr (requires { of.motor; }) {
+            const double unit = slides ? length : 1.0;
+            const double effort = mass * speed / time * (slides ? 1.0 : length);
             if (of.motor) {
               of.motor->velocity *= slides ? speed : 1.0 / time;
               of.motor->effort *= effort;

@@ -267,6 +267,110 @@ TEST(SlideTravel, GradientAndStiffnessMatchFiniteDifferences) {
   }
 }
 
+/// A rope between two bodies at random poses.
+struct Roped {
+  RopeJoint rope;
+  Vec3 x[2];
+  Quat q[2];
+
+  explicit Roped(Random& random) {
+    for (int i = 0; i < 2; ++i) {
+      x[i] = random_vector(random);
+      q[i] = random_rotation(random);
+    }
+    rope.anchor_a = random_vector(random);
+    rope.anchor_b = random_vector(random);
+    rope.limit->upper = uniform(random, 0.5, 2.0);
+  }
+
+  /// @param by a displacement and rotation of each body
+  [[nodiscard]] Block row(const Vec6& by_a = Vec6::Zero(), const Vec6& by_b = Vec6::Zero()) const {
+    const auto turn = [](const Vec6& by) -> Quat {
+      const Vec3 angle = by.tail<3>();
+      return angle.isZero(0.0) ? Quat(Quat::Identity())
+                               : Quat(Eigen::AngleAxisd(angle.norm(), angle.normalized()));
+    };
+    Block block;
+    block.a = 0;
+    block.b = 1;
+    block.kind = kind_of_coordinate<RopeLength>();
+    RopeLength::constants(block);
+    const Vec3 x_a = x[0] + by_a.head<3>();
+    const Vec3 x_b = x[1] + by_b.head<3>();
+    const Mat3 R_a = (turn(by_a) * q[0]).toRotationMatrix();
+    const Mat3 R_b = (turn(by_b) * q[1]).toRotationMatrix();
+    RopeLength::rows(RopeLength::geometry(rope, *rope.limit, true), {x_a, R_a}, {x_b, R_b}, block);
+    return block;
+  }
+};
+
+TEST(RopeLength, GradientAndStiffnessMatchFiniteDifferences) {
+  Random random(9);
+  constexpr double kStep = 1e-5;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Roped roped(random);
+    Block block = roped.row();
+    const Vec3 apart = roped.x[0] + roped.q[0] * roped.rope.anchor_a - roped.x[1] -
+                       roped.q[1] * roped.rope.anchor_b;
+    EXPECT_NEAR(block.phi[0], roped.rope.limit->upper - apart.norm(), 1e-14);
+    block.lambda[0] = uniform(random, 0.5, 2.0);
+    StiffnessMatrix K;
+    K.clear(2);
+    RopeLength::stiffness(block, K);
+    for (const int body : {0, 1}) {
+      for (int dof = 0; dof < 6; ++dof) {
+        const Vec6 by = kStep * Vec6::Unit(dof);
+        const Vec6 none = Vec6::Zero();
+        const Block forth = body == 0 ? roped.row(by) : roped.row(none, by);
+        const Block back = body == 0 ? roped.row(-by) : roped.row(none, -by);
+        EXPECT_NEAR(gradient(block, 0, body == 0)[dof],
+                    (forth.phi[0] - back.phi[0]) / (2.0 * kStep), 1e-8);
+        for (const int on : {0, 1}) {
+          const Vec6 change = block.lambda[0] / (2.0 * kStep) *
+                              (gradient(forth, 0, on == 0) - gradient(back, 0, on == 0));
+          EXPECT_LT((K.block(on, body).col(dof) - change).norm(), 1e-7);
+        }
+      }
+    }
+  }
+}
+
+TEST(RopeLength, CurvatureAndMovedRowsMatchThoseOfTheEnd) {
+  Random random(10);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Roped roped(random);
+    Vec6 u_a;
+    Vec6 u_b;
+    u_a << random_vector(random), random_vector(random);
+    u_b << random_vector(random), random_vector(random);
+    const double t = 1e-4;
+    const Block now = roped.row();
+    double found[kMaxRows];
+    RopeLength::curvature(now, u_a, u_b, found);
+    const double second = roped.row(t * u_a, t * u_b).phi[0] - 2.0 * now.phi[0] +
+                          roped.row(-t * u_a, -t * u_b).phi[0];
+    EXPECT_NEAR(found[0], second / (t * t), 1e-5 * (1.0 + std::abs(found[0])));
+
+    const Block end = roped.row(u_a, u_b);
+    const auto motion_of = [](const Vec6& u) -> Motion {
+      const Vec3 angle = u.tail<3>();
+      return {u.head<3>(), Eigen::AngleAxisd(angle.norm(), angle.normalized()).toRotationMatrix()};
+    };
+    Block moved = now;
+    RopeLength::move(now, motion_of(u_a), motion_of(u_b), {}, moved);
+    EXPECT_NEAR(moved.phi[0], end.phi[0] - now.phi[0], 1e-13);
+    const double force[1] = {1.7};
+    Vec6 change[2] = {Vec6::Zero(), Vec6::Zero()};
+    RopeLength::push_change(now, motion_of(u_a), motion_of(u_b), force, change[0], change[1]);
+    for (const bool of_a : {true, false}) {
+      EXPECT_LT((gradient(moved, 0, of_a) - gradient(end, 0, of_a)).norm(), 1e-13);
+      const Vec6 expected = force[0] * (gradient(end, 0, of_a) - gradient(now, 0, of_a));
+      EXPECT_LT((change[of_a ? 0 : 1] - expected).norm(), 1e-12);
+    }
+    EXPECT_EQ(RopeLength::force(now, force), force[0] * now.n);
+  }
+}
+
 TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   Scene scene;
   scene.effects.joints = scene.effects.limits = scene.effects.motors = true;

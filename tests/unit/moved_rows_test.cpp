@@ -127,11 +127,17 @@ TEST(MovedRows, OfJointsMatchThoseOfTheEnd) {
 
 TEST(MovedRows, ASubsetOfRowsMatchesAllRows) {
   Random random(36);
-  constexpr int kRows[] = {3, 5, 5, 6, 1, 4, 4, 3};
-  constexpr bool kPoints[] = {true, true, false, true, false, true, false, false};
-  const std::vector<RowRange> parts[] = {
-      {{0, 3}}, {{0, 3}, {3, 2}}, {{0, 2}, {2, 3}}, {{0, 3}, {3, 3}},
-      {{0, 1}}, {{0, 3}, {3, 1}}, {{0, 2}, {2, 2}}, {{0, 1}, {1, 1}, {2, 1}}};
+  constexpr int kRows[] = {3, 5, 5, 6, 1, 4, 4, 0, 3};
+  constexpr bool kPoints[] = {true, true, false, true, false, true, false, false, false};
+  const std::vector<RowRange> parts[] = {{{0, 3}},
+                                         {{0, 3}, {3, 2}},
+                                         {{0, 2}, {2, 3}},
+                                         {{0, 3}, {3, 3}},
+                                         {{0, 1}},
+                                         {{0, 3}, {3, 1}},
+                                         {{0, 2}, {2, 2}},
+                                         {},
+                                         {{0, 1}, {1, 1}, {2, 1}}};
   static_assert(std::size(kRows) == kJointKinds + 1);
   for (int trial = 0; trial < 60; ++trial) {
     Block start{};

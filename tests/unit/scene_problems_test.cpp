@@ -227,8 +227,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"JointOfNoKind",
                 R"("type": "hinge")",
                 R"("type": "slider")",
-                {"/joints/0/type: must be ball, hinge, prismatic, weld, distance, universal or "
-                 "cylindrical, not \"slider\""}},
+                {"/joints/0/type: must be ball, hinge, prismatic, weld, distance, universal, "
+                 "cylindrical or rope, not \"slider\""}},
         BadFile{
             "EffectOfNoKind",
             R"("friction"],)",

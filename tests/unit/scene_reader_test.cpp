@@ -209,6 +209,26 @@ TEST(SceneReader, ReadsUniversalAndCylindricalJointsAndWritesThemBack) {
   }
 }
 
+TEST(SceneReader, ReadsARopeAndRefusesOneThatIsTooShortOrStretches) {
+  const auto with_rope = [](const std::string& rest) {
+    std::string text = with_joint("rope", rest);
+    const std::string effects = R"("joints", )";
+    return text.replace(text.find(effects), effects.size(), R"("joints", "limits", )");
+  };
+  const SceneResult read = read_scene(with_rope(R"("length": 0.5)"));
+  ASSERT_TRUE(read.scene) << to_string(read.problems.front());
+  EXPECT_EQ(std::get<RopeJoint>(read.scene->joints[0]).limit->upper, 0.5);
+  const std::string written = write_scene(*read.scene);
+  EXPECT_EQ(write_scene(*read_scene(written).scene), written);
+  EXPECT_EQ(problems_of(with_rope(R"("length": 1, "compliance": 1e-6)")),
+            List{"/joints/0/compliance: a rope does not stretch: it must be 0, not 1e-6"});
+  std::string apart = with_rope(R"("length": 0.5)");
+  const std::string anchor = R"("anchor_b": [-0.5, 3, 0])";
+  apart.replace(apart.find(anchor), anchor.size(), R"("anchor_b": [-0.5, 3, 1])");
+  EXPECT_EQ(problems_of(apart), List{"/joints/0: the anchors start 0.5 beyond the length of their "
+                                     "rope, which is more than 0.1 (m)"});
+}
+
 TEST(SceneReader, RefusesUniversalAndCylindricalJointsWithTheWrongAxesOrKeys) {
   EXPECT_EQ(problems_of(with_joint("universal", R"("axis_a": [0, 0.6, 0.8], "axis_b": [0, 0, 1])")),
             List{"/joints/0: the axes start at an angle with cosine 0.8, which is more than 0.1"});

@@ -117,6 +117,7 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
   cylinder.spring.emplace();
   cylinder.friction = cylinder.armature = 1.0;
   scene.joints.emplace_back(cylinder);
+  scene.joints.emplace_back(RopeJoint{});
   const Json json = Json::parse(write_scene(scene), nullptr, false);
   const auto joint = [last = scene.joints.size() - 1](std::size_t before) {
     return "/joints/" + std::to_string(last - before);
@@ -137,21 +138,22 @@ TEST(SceneSchema, HasTheKeysOfTheReader) {
       {"/$defs/shape/oneOf/0", "/bodies/21/shape"},
       {"/$defs/shape/oneOf/1", "/bodies/1/shape"},
       {"/$defs/shape/oneOf/2", "/bodies/0/shape"},
-      {"/$defs/angle_limit", joint(5) + "/limit"},
-      {"/$defs/angular_motor", joint(5) + "/motor"},
-      {"/$defs/angular_drive", joint(5) + "/drive"},
-      {"/$defs/angular_spring", joint(5) + "/spring"},
-      {"/$defs/linear_spring", joint(4) + "/spring"},
-      {"/$defs/travel_limit", joint(4) + "/limit"},
-      {"/$defs/linear_motor", joint(4) + "/motor"},
-      {"/$defs/linear_drive", joint(4) + "/drive"},
+      {"/$defs/angle_limit", joint(6) + "/limit"},
+      {"/$defs/angular_motor", joint(6) + "/motor"},
+      {"/$defs/angular_drive", joint(6) + "/drive"},
+      {"/$defs/angular_spring", joint(6) + "/spring"},
+      {"/$defs/linear_spring", joint(5) + "/spring"},
+      {"/$defs/travel_limit", joint(5) + "/limit"},
+      {"/$defs/linear_motor", joint(5) + "/motor"},
+      {"/$defs/linear_drive", joint(5) + "/drive"},
       {"/$defs/joint/oneOf/0", "/joints/0"},
-      {"/$defs/joint/oneOf/1", joint(5)},
-      {"/$defs/joint/oneOf/2", joint(4)},
-      {"/$defs/joint/oneOf/3", joint(3)},
-      {"/$defs/joint/oneOf/4", joint(2)},
-      {"/$defs/joint/oneOf/5", joint(1)},
-      {"/$defs/joint/oneOf/6", joint(0)}};
+      {"/$defs/joint/oneOf/1", joint(6)},
+      {"/$defs/joint/oneOf/2", joint(5)},
+      {"/$defs/joint/oneOf/3", joint(4)},
+      {"/$defs/joint/oneOf/4", joint(3)},
+      {"/$defs/joint/oneOf/5", joint(2)},
+      {"/$defs/joint/oneOf/6", joint(1)},
+      {"/$defs/joint/oneOf/7", joint(0)}};
   std::size_t seen = 0;
   for_each_object(schema(), "", [&](const std::string& pointer, const Json& object) {
     ++seen;

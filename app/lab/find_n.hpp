@@ -99,6 +99,8 @@ class FindN {
 
   /// By descending alpha: those that have run so far.
   [[nodiscard]] std::vector<AlphaPoint> along_alpha() const;
+  /// Number of those planned.
+  [[nodiscard]] std::size_t alphas() const { return curve_.size(); }
   [[nodiscard]] Count count() const;
   /// The answer, once done.
   [[nodiscard]] const Result* best() const;

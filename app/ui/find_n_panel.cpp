@@ -21,7 +21,7 @@ constexpr std::array<Choice, static_cast<std::size_t>(ErrorAxis::kCount)> kFindE
      {"Gap", "Largest gap of a joint"},
      {"Overlap", "Deepest overlap of a contact"}}};
 constexpr std::array<const char*, static_cast<std::size_t>(ErrorAxis::kCount)> kFindKept{
-    "path", "energy", "joint gaps", "overlaps"};
+    "a path error", "an energy drift", "joint gaps", "overlaps"};
 
 std::string seconds_text(double seconds) { return plain_number(seconds) + " s"; }
 
@@ -40,7 +40,7 @@ void find_wanted(const Look& look, FindN& find, const Scene& scene) {
   find.next_axis = axes[static_cast<std::size_t>(current)];
   const bool energy = find.next_axis == ErrorAxis::kEnergy;
   power_slider(look, energy ? "Within, J" : "Within, m",
-               find.next_limit.at(static_cast<std::size_t>(find.next_axis)), energy ? 1e-6 : 1e-6,
+               find.next_limit.at(static_cast<std::size_t>(find.next_axis)), 1e-6,
                energy ? 1e6 : 1.0, "The largest permitted error");
 }
 
@@ -51,7 +51,8 @@ std::string find_stage(const FindN& find) {
     case FindN::Stage::kSurvey:
       return "Looking at the motion";
     case FindN::Stage::kSubsteps:
-      return "N along alpha: " + std::to_string(find.along_alpha().size() + 1) + " of 11";
+      return "N along alpha: " + std::to_string(find.along_alpha().size() + 1) + " of " +
+             std::to_string(find.alphas());
     case FindN::Stage::kReference:
       return "Computing the reference motion";
     case FindN::Stage::kMethods:
@@ -100,7 +101,7 @@ void find_method(const Look& look, const Settings& s) {
 /// "0.858 mm for 3 sub-steps and 43,200 operations per frame."
 std::string find_figures(const Result& result, ErrorAxis axis) {
   return error_text(error_of(result, axis).value_or(0.0), axis) + " for " +
-         short_number(cost_of(result, CostAxis::kSubsteps)) + " sub-steps and " +
+         plain_number(cost_of(result, CostAxis::kSubsteps)) + " sub-steps and " +
          cost_text(cost_of(result, CostAxis::kOperations), CostAxis::kOperations) + ".";
 }
 
@@ -119,6 +120,7 @@ std::string find_times(const FindN& find) {
 std::string find_beside_paper(const FindN& find, const Result& best) {
   const Result* paper = find.best_of_paper();
   const auto points = find.along_alpha();
+  if (points.empty()) return "";
   if (paper == nullptr) {
     return " No alpha tried for the paper's method, from " + plain_number(points.front().alpha) +
            " to " + plain_number(points.back().alpha) + ", is within it.";
@@ -131,18 +133,19 @@ std::string find_beside_paper(const FindN& find, const Result& best) {
          " on average: " + coarse_number(times) + " times the work.";
 }
 
+/// What the answer rests on: "Tried 408 of 408 methods and parameters: 13 hold, 30 fail, ..."
 std::string find_tried(const FindN& find) {
   const FindN::Count n = find.count();
-  std::string text = "Tried: " + std::to_string(n.complete + n.error + n.cost) + " of " +
-                     std::to_string(n.planned) + " methods and parameters. " +
-                     std::to_string(n.complete) + " ran to the end or failed, " +
-                     std::to_string(n.held) + " hold";
+  std::string text = "Tried " + std::to_string(n.complete + n.error + n.cost) + " of " +
+                     std::to_string(n.planned) +
+                     " methods and parameters: " + std::to_string(n.held) + " hold, " +
+                     std::to_string(n.complete - n.held) + " fail";
   if (n.error > 0) {
-    text += "; " + std::to_string(n.error) + " ended early above " +
+    text += ", " + std::to_string(n.error) + " ended early above " +
             error_text(find.limit(), find.axis());
   }
   if (n.cost > 0) {
-    text += "; " + std::to_string(n.cost) + " ended early with more work than the cheapest";
+    text += ", " + std::to_string(n.cost) + " ended early with more work than the cheapest";
   }
   return text + ".";
 }
@@ -199,8 +202,8 @@ void find_answer(const Look& look, Lab& lab) {
   }
   const auto axis = static_cast<std::size_t>(find.axis());
   label(look.fonts.small, t.dim,
-        std::string(done ? "The cheapest" : "The cheapest so far") + " within " +
-            error_text(find.limit(), find.axis()) + " of " + kFindKept.at(axis));
+        std::string(done ? "The cheapest with " : "So far the cheapest with ") +
+            kFindKept.at(axis) + " of at most " + error_text(find.limit(), find.axis()));
   find_method(look, best->experiment.settings);
   label(look.fonts.small, t.dim,
         find_figures(*best, find.axis()) + find_times(find) +
@@ -253,7 +256,7 @@ void find_n(const Look& look, Lab& lab) {
     }
   }
   if (!find.along_alpha().empty()) {
-    space(4.0F);
+    space(8.0F);
     const Result* chosen = find_n_chart(look, find, ImGui::GetContentRegionAvail().x);
     if (chosen != nullptr) lab.run_found(Result(*chosen));
     space(4.0F);

@@ -38,7 +38,7 @@ FindN answer_for(const Scene& scene, ErrorAxis axis, double limit) {
 
 Scene short_rope(int n = 3) { return own_scene(scenes::rope_of_n({.n = n}), "short_rope", 0.5); }
 
-/// A sphere that falls faster than any criterion allows: every run fails.
+/// Any gap of a joint fails, so every run does.
 Scene hopeless() {
   Scene scene = short_rope();
   scene.name = "hopeless";
@@ -101,6 +101,7 @@ std::string as_printed(const Result& result, ErrorAxis axis) {
 }
 
 TEST(FindN, AgreesWithRecommendOnTheSameText) {
+  std::size_t ended_early = 0;
   for (const Asked& asked : not_shipped()) {
     const std::string text = write_scene(asked.scene);
     const SceneResult read = read_scene(text);
@@ -113,8 +114,7 @@ TEST(FindN, AgreesWithRecommendOnTheSameText) {
       EXPECT_NE(said.find(": " + as_printed(*find.best(), asked.axis)), std::string::npos)
           << as_printed(*find.best(), asked.axis) << "\n"
           << context;
-      const FindN::Count count = find.count();
-      EXPECT_LT(count.complete, count.planned) << "some runs end early";
+      ended_early += find.count().error + find.count().cost;
     } else if (find.nearest() != nullptr && find.failed().empty()) {
       EXPECT_NE(said.find("The nearest: " + as_printed(*find.nearest(), asked.axis)),
                 std::string::npos)
@@ -124,6 +124,7 @@ TEST(FindN, AgreesWithRecommendOnTheSameText) {
       EXPECT_EQ(said.find("The cheapest within "), std::string::npos) << context;
     }
   }
+  EXPECT_GT(ended_early, 100U) << "not all runs are needed";
 }
 #endif
 
@@ -132,8 +133,9 @@ TEST(FindN, TheSubStepsAlongAlphaAreThoseOfWholeRuns) {
   const auto points = find.along_alpha();
   ASSERT_GT(points.size(), 8U);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i > 0) EXPECT_LT(points[i].alpha, points[i - 1].alpha);
-    if (i > 0) EXPECT_GE(points[i].n, points[i - 1].n);
+    const FindN::AlphaPoint& before = points[i > 0 ? i - 1 : 0];
+    EXPECT_TRUE(i == 0 || points[i].alpha < before.alpha);
+    EXPECT_GE(points[i].n, before.n);
     EXPECT_TRUE(points[i].error.has_value());
     ExperimentRun run(*find.scene(), points[i].result->experiment, find.reference());
     while (run.advance()) {
@@ -231,6 +233,7 @@ TEST(FindNPanel, OneButtonFindsAndAnotherRunsTheAnswer) {
   h.press("Run it");
   EXPECT_TRUE(h.app->session.playing());
   h.app->session.pause();
+  h.app->reset();
   for (std::int64_t f = 0; f < best.metrics.work.frames; ++f) h.app->session.step();
   EXPECT_EQ(h.app->session.hash(), best.metrics.hash);
 }

@@ -183,7 +183,7 @@ const Result* find_n_chart(const Look& look, const FindN& find, float width) {
   alpha_axis(look, lower);
   if (best != nullptr) {
     const double n = cost_of(*best, CostAxis::kSubsteps);
-    alpha_level(look, upper, n, "the cheapest: N = " + coarse_number(n), t.text, draw);
+    alpha_level(look, upper, n, "cheapest: " + coarse_number(n), t.text, draw);
   }
   alpha_level(look, lower, find.limit(), error_text(find.limit(), find.axis()), t.text, draw);
   alpha_curve(upper, points, alpha_n, t.blue, t.orange, draw);

@@ -255,6 +255,7 @@ void find_n(const Look& look, Lab& lab) {
       label(look.fonts.small, t.dim, "Choose another error above.");
     }
   }
+  if (find.failure().empty()) find_answer(look, lab);
   if (!find.along_alpha().empty()) {
     space(8.0F);
     const Result* chosen = find_n_chart(look, find, ImGui::GetContentRegionAvail().x);
@@ -262,7 +263,6 @@ void find_n(const Look& look, Lab& lab) {
     space(4.0F);
   }
   if (!find.failure().empty()) return;
-  find_answer(look, lab);
   if (find.count().complete == 0) return;
   space(4.0F);
   label(look.fonts.small, t.dim, find_tried(find));

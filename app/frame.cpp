@@ -177,7 +177,11 @@ void frame(App& app, double wall_dt, bool whole) {
     app.pause_at = 0.0;  // playing again continues past the end
   }
   const double slice = Accuracy::slice(app.session.playing(), wall_dt - app.own_time);
-  app.accuracy.advance(slice);
+  if (app.find_n.busy()) {  // a sweep in progress waits
+    app.find_n.advance(FindN::slice(wall_dt - app.own_time));
+  } else {
+    app.accuracy.advance(slice);
+  }
   if (!app.session.playing()) app.try_remedies(slice);
   app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   app.notice.left -= wall_dt;

@@ -1,6 +1,5 @@
 #include "app/cli/all_methods.hpp"
 
-#include <set>
 #include <string>
 #include <utility>
 
@@ -8,7 +7,7 @@
 #include "app/cli/output.hpp"
 #include "app/cli/parallel_sweep.hpp"
 #include "app/cli/progress_line.hpp"
-#include "core/io/experiment.hpp"
+#include "core/io/all_methods.hpp"
 #include "core/model/format_text.hpp"
 
 namespace substep::cli {
@@ -50,19 +49,7 @@ std::optional<std::vector<Result>> run_experiments(const std::shared_ptr<const S
 std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const Scene>& scene,
                                                    double seconds, int jobs,
                                                    const Reference& reference, bool defaults) {
-  std::vector<SweepPoint> points = default_sweep(*scene);
-  if (defaults) append_defaults(points);
-  Experiment plain = experiment_of(*scene, scene->settings);
-  plain.duration = seconds;
-  std::vector<Experiment> experiments;
-  std::set<std::string> known;
-  for (const SweepPoint& point : points) {
-    if (point.load != 1.0) continue;
-    Experiment experiment = plain;
-    experiment.settings = point.settings;
-    if (known.insert(experiment_id(experiment)).second) experiments.push_back(experiment);
-  }
-  return run_experiments(scene, std::move(experiments), jobs, &reference);
+  return run_experiments(scene, all_methods(*scene, seconds, defaults), jobs, &reference);
 }
 
 std::optional<Reference> find_reference(const std::shared_ptr<const Scene>& scene, double seconds,

@@ -22,7 +22,8 @@ enum class AccuracyPicture : unsigned char {
   kErrorAgainstCost,
   kFairTrade,
   kStabilityMap,
-  kEffectCosts
+  kEffectCosts,
+  kFindN
 };
 
 /// "What does accuracy cost?": a sweep of all methods over the running scene, computed in slices

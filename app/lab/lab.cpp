@@ -187,6 +187,29 @@ void Lab::run_result(const Result& result) {
   session.play();
 }
 
+FindScene Lab::find_scene() const {
+  if (const Session::Edition* edition = session.edition()) return {edition->start};
+  return {plain_scene, load, seed};
+}
+
+void Lab::start_find_n() {
+  accuracy.picture = AccuracyPicture::kFindN;
+  if (!FindN::has(find_n.next_axis, session.scene())) find_n.next_axis = ErrorAxis::kTrajectory;
+  const ErrorAxis axis = find_n.next_axis;
+  find_n.start(find_scene(), axis, find_n.next_limit.at(static_cast<std::size_t>(axis)));
+}
+
+void Lab::run_found(const Result& result) {
+  const FindScene of = find_n.of();
+  if (of == find_scene() && session.edition() == nullptr) {
+    change(result.experiment.settings);
+    reset();
+    session.play();
+    return;
+  }
+  run(RunStart{of.plain, result.experiment.settings, of.load, of.seed, 0.0, {}, true});
+}
+
 void Lab::keep(const Recommended& recommended) {
   Scene scene = *accuracy.scene();
   scene.settings = recommended.settings;

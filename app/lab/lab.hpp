@@ -10,6 +10,7 @@
 #include "app/lab/compare.hpp"
 #include "app/lab/exam_ghost.hpp"
 #include "app/lab/failure.hpp"
+#include "app/lab/find_n.hpp"
 #include "app/lab/heavy_start.hpp"
 #include "app/lab/host.hpp"
 #include "app/lab/library.hpp"
@@ -62,6 +63,12 @@ struct Lab {
   void vary(double load, int seed);
   /// Runs a point of the accuracy picture from its start.
   void run_result(const Result& result);
+  /// The scene of this run: with its load and seed, or from its last edit.
+  [[nodiscard]] FindScene find_scene() const;
+  /// Starts "Find N" on it, within the error that is set.
+  void start_find_n();
+  /// Runs a result of "Find N" from its start.
+  void run_found(const Result& result);
   /// Saves the scene of the accuracy picture as one of the user's own, with the settings that its
   /// sweep recommends, and runs it.
   void keep(const Recommended& recommended);
@@ -83,8 +90,8 @@ struct Lab {
   void continue_seek(double seconds);
   /// Whether anything runs without input: playback, a sweep, a search.
   [[nodiscard]] bool busy() const {
-    return session.playing() || seeking() || accuracy.busy() || compare.behind(session) ||
-           trying_remedies();
+    return session.playing() || seeking() || accuracy.busy() || find_n.busy() ||
+           compare.behind(session) || trying_remedies();
   }
 
   /// Largest mass of a moving body in the scene as loaded [kg]; the load multiplies it.
@@ -123,6 +130,7 @@ struct Lab {
   Compare compare;
   ExamGhost exam;  // of scenes with a known answer
   Accuracy accuracy;
+  FindN find_n;
   Host host;
   Trouble trouble;  // none if the title is empty
   Notice notice;

@@ -167,6 +167,9 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
     accuracy.cancel_search();
     accuracy.cancel_trial();
     accuracy.effects.cancel();
+    lab.find_n.cancel();
+  } else if (value == "find") {
+    lab.start_find_n();
   } else if (value == "alpha") {
     if (!accuracy.can_search()) {
       return "'alpha' needs a sweep that has found its reference: set accuracy=run first";
@@ -183,7 +186,7 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
   } else if (value == "measure") {
     lab.measure_costs();
   } else {
-    return must_be("run, cancel, alpha, measure, error, trade, map or stages", value);
+    return must_be("run, find, cancel, alpha, measure, error, trade, map or stages", value);
   }
   return "";
 }

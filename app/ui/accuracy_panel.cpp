@@ -91,8 +91,11 @@ bool shows_errors(const Accuracy& accuracy) {
 
 /// The choice of picture; the map only for scenes that have one.
 void picture_row(const Look& look, Accuracy& accuracy) {
-  std::vector<Choice> names{{"Error", "Error against cost, a curve for every method"}};
-  std::vector<AccuracyPicture> pictures{AccuracyPicture::kErrorAgainstCost};
+  std::vector<Choice> names{
+      {"Find N", "N and error along alpha, and the cheapest method within an error, in seconds"}};
+  std::vector<AccuracyPicture> pictures{AccuracyPicture::kFindN};
+  names.push_back({"Error", "Error against cost, a curve for every method"});
+  pictures.push_back(AccuracyPicture::kErrorAgainstCost);
   names.push_back({"Trade", "Adaptive sub-steps beside the best constant N, chosen in hindsight"});
   pictures.push_back(AccuracyPicture::kFairTrade);
   if (accuracy.has_map()) {
@@ -103,7 +106,7 @@ void picture_row(const Look& look, Accuracy& accuracy) {
   pictures.push_back(AccuracyPicture::kEffectCosts);
   const auto now = std::find(pictures.begin(), pictures.end(), accuracy.picture);
   auto current = static_cast<int>(now - pictures.begin());
-  if (segmented_row(look, "Show", names, current, "Which picture of what accuracy costs")) {
+  if (segmented(look, "Show", names, current, ImGui::GetContentRegionAvail().x)) {
     accuracy.picture = pictures[static_cast<std::size_t>(current)];
   }
 }
@@ -244,6 +247,7 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   accuracy.show_shipped(lab.plain_scene);
   section(look, "What does accuracy cost?");
   picture_row(look, lab.accuracy);
+  if (accuracy.picture == AccuracyPicture::kFindN) return find_n(look, lab);
   // With the error picture the search has a separate place.
   if (accuracy.picture != AccuracyPicture::kErrorAgainstCost) search_bar(look, lab.accuracy);
   if (accuracy.picture == AccuracyPicture::kEffectCosts) {

@@ -73,6 +73,12 @@ void effect_costs(const Look& look, Lab& lab);
 void accuracy(const Look& look, Lab& lab, Desk& desk);
 /// Its picture alone, for a paper.
 void accuracy_figure(const Look& look, Lab& lab);
+/// "Find N": sub-steps and error along alpha, and the cheapest method within an error.
+void find_n(const Look& look, Lab& lab);
+/// Its plots. @param width logical pixels @return the run whose column was pressed, or null
+const Result* find_n_chart(const Look& look, const FindN& find, float width);
+/// A button that opens the panel and starts the search.
+void find_n_button(const Look& look, Lab& lab, Desk& desk);
 /// The recommendation in the same panel: the cheapest within an error or the most accurate within a
 /// cost, with the reason, a button to run it, and a search for the paper's alpha.
 void advice(const Look& look, Lab& lab);

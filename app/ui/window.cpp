@@ -54,7 +54,11 @@ constexpr std::array<Panel, 5> kPanels{
      {Tab::kPlots, {"Plots", "Results of every frame"}, draw_plots},
      {Tab::kWhy,
       {"Why N", "The body that determines the number of sub-steps"},
-      [](App& app, float) { why(app.look, app.session, app.desk); }},
+      [](App& app, float) {
+        find_n_button(app.look, app, app.desk);
+        space(app.look.m.section);
+        why(app.look, app.session, app.desk);
+      }},
      {Tab::kCompare,
       {"Compare", "Comparison with other methods"},
       [](App& app, float) { compare(app.look, app, app.desk); }},

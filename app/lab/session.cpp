@@ -20,18 +20,23 @@ Scene edition_of(const Scene& scene, const State& state, const Settings& setting
   for (Joint& joint : out.joints) {
     std::visit(
         [&](auto& own) {
-          if constexpr (requires { own.limit; }) {
+          if constexpr (requires { own.motor; }) {
             if (!effects.limits) own.limit.reset();
             if (!effects.motors) own.motor.reset();
             if (!effects.drives) own.drive.reset();
             if (!effects.springs) own.spring.reset();
             if (!effects.joint_friction) own.friction.reset();
             if (!effects.armature) own.armature.reset();
+          } else if constexpr (requires { own.limit; }) {  // a rope is nothing but a limit
+            if (!effects.limits) own.limit->upper = kSizeRange.max;
+          }
+          if constexpr (requires { own.limit; }) {
             if (own.limit && !effects.restitution) own.limit->restitution = 0.0;
           }
         },
         joint);
   }
+  effects.limits = effects.limits || needs_limits(out);  // of ropes
   for (Body& body : out.bodies) {
     if (!effects.friction) body.friction = 0.0;
     if (!effects.restitution) body.restitution = 0.0;

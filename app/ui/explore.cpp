@@ -111,7 +111,7 @@ void explore_controls(const Look& look, Lab& lab, Desk& desk, const Viewport& vi
   space(look.m.section);
   comparison(look, lab, desk);
   space(look.m.section);
-  find_n_button(look, lab, desk);
+  if (!lab.compare.open()) find_n_button(look, lab, desk);  // fewer than 20 controls
   if (button(look, "throw", Icon::kBall, "Throw a ball", ButtonKind::kPlain,
              ImGui::GetContentRegionAvail().x, look.m.row + 2.0F,
              "From the camera; B throws it at the pointer")) {

@@ -28,7 +28,7 @@ Scene edition_of(const Scene& scene, const State& state, const Settings& setting
             if (!effects.joint_friction) own.friction.reset();
             if (!effects.armature) own.armature.reset();
           } else if constexpr (requires { own.limit; }) {  // a rope is nothing but a limit
-            if (!effects.limits) own.limit->upper = kSizeRange.max;
+            if (!effects.limits) own.limit->upper = kSizeRange.most;
           }
           if constexpr (requires { own.limit; }) {
             if (own.limit && !effects.restitution) own.limit->restitution = 0.0;

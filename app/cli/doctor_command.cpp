@@ -135,12 +135,13 @@ class DoctorText {
   void print_group(std::FILE* out, const GroupLimit& limit) const {
     const GroupFacts& group = d_.groups[limit.group];
     say(out,
-        "\nGroup of %s: %zu bodies, %d degrees of freedom, at the start\n"
+        "\nGroup of %s: %zu %s, %d %s of freedom, at the start\n"
         "  largest step %s; of geometric stiffness alone, 2/w_max, %s; the paper's criterion, "
         "2/sqrt(r), %s\n",
-        body(group.bodies[0]).c_str(), group.bodies.size(), group.freedom,
-        time_text(limit.step).c_str(), time_text(limit.geometric).c_str(),
-        time_text(limit.criterion).c_str());
+        body(group.bodies[0]).c_str(), group.bodies.size(),
+        group.bodies.size() == 1 ? "body" : "bodies", group.freedom,
+        group.freedom == 1 ? "degree" : "degrees", time_text(limit.step).c_str(),
+        time_text(limit.geometric).c_str(), time_text(limit.criterion).c_str());
     const auto of_joint = [this](int i) { return joint(i); };
     const auto of_body = [this](int i) { return body(i); };
     if (const std::string text = shares_text(limit.drives, of_joint); !text.empty()) {

@@ -7,8 +7,8 @@
 
 namespace substep {
 
-/// A chooser for scene files if the system has none: lists the folders and scene files and models (*.json, *.xml, *.urdf) of
-/// one folder at a time.
+/// A chooser for scene files if the system has none: lists the folders and scene files and models
+/// (*.json, *.xml, *.urdf) of one folder at a time.
 class FileBrowser {
  public:
   struct Entry {

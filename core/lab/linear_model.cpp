@@ -498,6 +498,7 @@ std::vector<LinearModel::Share> LinearModel::joints_of(const Eigen::VectorXd& mo
   const AnyVector moved = basis_ * mode;
   const double all = mode.dot(geometric_ * mode);
   std::vector<Share> shares;
+  if (!(all > 0.0)) return shares;
   for (const JointTerm& term : terms_) {
     const int places[] = {term.a, term.b};
     double sum = 0.0;

@@ -62,7 +62,8 @@ class LinearModel {
   /// armatures.
   [[nodiscard]] std::vector<Share> bodies_of(const Eigen::VectorXd& mode) const;
   /// Shares of the joints in its geometric stiffness, the largest first; those of all joints sum to
-  /// 1. The limit 2/w changes by half as much, relatively, as the force of a joint times its share.
+  /// 1. Empty if it does not resist. The limit 2/w changes by half as much, relatively, as the
+  /// force of a joint times its share.
   [[nodiscard]] std::vector<Share> joints_of(const Eigen::VectorXd& mode) const;
   /// d(mass of the mode)/d(armature) of each hinge and slide of the group, the largest first.
   [[nodiscard]] std::vector<Share> coordinates_of(const Eigen::VectorXd& mode) const;

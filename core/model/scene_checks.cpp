@@ -191,9 +191,13 @@ void check_effects(const Scene& scene, Problems& problems) {
       return pointer_to(pointer_to("/joints", i), part) + " is given";
     };
     const Limit* limit = limit_of(scene.joints[i]);
-    if (limit != nullptr && !std::exchange(limits, true)) missing("limits", given("limit"));
+    const bool is_rope = rope_length_of(scene.joints[i]).has_value();
+    if (limit != nullptr && !std::exchange(limits, true)) {
+      missing("limits", is_rope ? pointer_to("/joints", i) + " is a rope" : given("limit"));
+    }
     if (limit != nullptr && limit->restitution > 0.0 && !std::exchange(restitution, true)) {
-      missing("restitution", "a limit has a restitution above 0");
+      missing("restitution",
+              is_rope ? "a rope has a restitution above 0" : "a limit has a restitution above 0");
     }
     if (motor_of(scene.joints[i]) != nullptr && !std::exchange(motors, true)) {
       missing("motors", given("motor"));

@@ -35,9 +35,9 @@ TEST(JointSprings, MoveAsDrivesWithoutBounds) {
   for (int joint = 0; joint < 2; ++joint) {
     const Spring& spring = springs[joint];
     sprung.add_spring(joint, spring);
-    driven.drive(joint, Drive{.target = spring.rest,
-                              .stiffness = spring.stiffness,
-                              .damping = spring.damping});
+    driven.drive(
+        joint,
+        Drive{.target = spring.rest, .stiffness = spring.stiffness, .damping = spring.damping});
   }
   const auto with_springs = std::make_shared<const Scene>(*sprung.build());
   EXPECT_TRUE(with_springs->effects.springs);

@@ -148,6 +148,7 @@ TEST(Doctor, TellsSpringsFromDrives) {
   const Diagnosis of_spring = at_start(sprung, 0.2, "mujoco");
   EXPECT_NEAR(of_spring.step, largest_step(OneCoordinate{inertia, 2000.0, 0.0, 20.0}), 1e-9);
   EXPECT_EQ(of_spring.limited_by, "the spring of joint_0 at the start");
+  EXPECT_TRUE(of_spring.start[0].joints.empty()) << "no geometric stiffness resists";
   EXPECT_FALSE(std::isfinite(at_start(sprung, 0.2).step));
   EXPECT_FALSE(std::isfinite(at_start(sprung, 0.2, "substep", 4).step)) << "it is in the engine";
   const Scene both = rod_with(Spring{0.0, 1500.0, 5.0}, Drive{.stiffness = 500.0, .damping = 15.0});

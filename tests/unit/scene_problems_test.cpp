@@ -5,6 +5,8 @@
 #include <ostream>
 #include <string>
 
+#include "core/io/scene_writer.hpp"
+#include "core/model/scene_builder.hpp"
 #include "tests/unit/scene_text.hpp"
 
 namespace substep {
@@ -229,12 +231,12 @@ INSTANTIATE_TEST_SUITE_P(
                 R"("type": "slider")",
                 {"/joints/0/type: must be ball, hinge, prismatic, weld, distance, universal, "
                  "cylindrical or rope, not \"slider\""}},
-        BadFile{
-            "EffectOfNoKind",
-            R"("friction"],)",
-            R"("friction", "magnetism"],)",
-            {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
-             "external, limits, motors, drives, joint_friction, armature or springs, not \"magnetism\""}},
+        BadFile{"EffectOfNoKind",
+                R"("friction"],)",
+                R"("friction", "magnetism"],)",
+                {"/effects/4: must be gravity, gyroscopic, joints, contact, friction, restitution, "
+                 "external, limits, motors, drives, joint_friction, armature or springs, not "
+                 "\"magnetism\""}},
         BadFile{"EffectOfForcesMissing",
                 R"("shape": {"type": "sphere")",
                 R"("force": [0, 0, 0], "torque": [0, 1, 0], "shape": {"type": "sphere")",
@@ -522,6 +524,32 @@ TEST(SceneProblems, OfLimitsAndMotors) {
             List{"/effects: \"motors\" is missing, but /joints/0/motor is given"});
   EXPECT_EQ(problems_with(R"("limit": {"upper": 1, )" + across, R"("friction"])"),
             List{"/effects: \"limits\" is missing, but /joints/0/limit is given"});
+}
+
+TEST(SceneProblems, OfSprings) {
+  const std::string across = R"("across_a": [1, 0, 0], "across_b": [1, 0, 0]})";
+  const auto spring = [&](const std::string& numbers, const std::string& effects) {
+    return problems_with(R"("spring": {)" + numbers + ", " + across, effects);
+  };
+  const std::string listed = R"("friction", "springs"])";
+  EXPECT_EQ(spring(R"("rest": 20, "stiffness": 1e5)", listed), List{});
+  EXPECT_EQ(spring(R"("damping": 2)", listed), List{});
+  EXPECT_EQ(spring(R"("rest": 1)", listed),
+            List{"/joints/0/spring: stiffness or damping must be above 0"});
+  EXPECT_EQ(spring(R"("stiffness": -1)", listed),
+            List{"/joints/0/spring/stiffness: must be at least 0 (N m/rad), not -1"});
+  EXPECT_EQ(spring(R"("damping": 2)", R"("friction"])"),
+            List{"/effects: \"springs\" is missing, but /joints/0/spring is given"});
+}
+
+TEST(SceneProblems, OfRopesWithoutTheirEffect) {
+  SceneBuilder builder("rope");
+  const int ball = builder.add_body(Sphere{0.1}, 1.0, {0.5, 0.0, 0.0});
+  builder.add_rope(ball, kWorld, {0.5, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1.0);
+  Scene scene = *builder.build();
+  scene.effects.limits = false;
+  EXPECT_EQ(problems_of(write_scene(scene)),
+            List{"/effects: \"limits\" is missing, but /joints/0 is a rope"});
 }
 
 TEST(SceneProblems, OfDrives) {

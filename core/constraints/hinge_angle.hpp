@@ -30,8 +30,7 @@ struct HingeAngle {
   }
 
   /// phi = theta, from -pi to pi.
-  /// @param zero an AngularDrive or an AngularSpring
-  static JointGeometry geometry(const HingeJoint& hinge, const auto& zero) {
+  static JointGeometry geometry(const HingeJoint& hinge, const AngleZero& zero) {
     JointGeometry geometry;
     geometry.u = hinge.axis_a;
     geometry.v1 = zero.across_b;

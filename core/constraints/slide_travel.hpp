@@ -25,8 +25,8 @@ struct TravelOf {
     return geometry;
   }
 
-  /// phi = v . d
-  static JointGeometry geometry(const Slide& slide, const auto& /*given*/) {
+  /// phi = v . d, of a drive or a spring.
+  static JointGeometry geometry(const Slide& slide, const auto& /*part*/) {
     return geometry(slide);
   }
 

@@ -5,9 +5,10 @@
 
 namespace substep {
 
-void StiffnessMatrix::reserve(std::size_t bodies, std::size_t pairs) {
+void StiffnessMatrix::reserve(std::size_t bodies, std::size_t pairs, bool whole) {
   pairs_.reserve(bodies + 2 * pairs);
   angular_.reserve(bodies + 2 * pairs);
+  if (whole) whole_.reserve(bodies + 2 * pairs);
 }
 
 void StiffnessMatrix::clear(std::size_t bodies) {

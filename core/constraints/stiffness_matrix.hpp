@@ -15,7 +15,8 @@ namespace substep {
 /// whole blocks are allocated when another term is added.
 class StiffnessMatrix {
  public:
-  void reserve(std::size_t bodies, std::size_t pairs);
+  /// @param whole whether whole blocks may first be added after the first frame
+  void reserve(std::size_t bodies, std::size_t pairs, bool whole);
   /// Resets to zero, for this many bodies.
   void clear(std::size_t bodies);
   /// Adds to the angular-angular part. @param block [N m/rad]

@@ -124,7 +124,7 @@ std::optional<std::string> across_axis_fault(const Vec3& axis, const Vec3& v) {
 
 /// Of the directions from which the angle of a hinge is measured.
 std::optional<JointFault> zero_fault(std::string_view key, const JointAxes& axes,
-                                     const auto& directions) {
+                                     const AngleZero& directions) {
   if (const auto fault = across_axis_fault(axes.a, directions.across_a)) {
     return JointFault{key, "across_a " + *fault};
   }

@@ -36,19 +36,27 @@ struct Limit {
   double restitution = 0.0;  // [-]
 };
 
-/// The angle is the rotation of across_a from across_b about the axis; its range is less than a
-/// full turn.
-struct AngleLimit : Limit {
+/// The directions from which the angle of a hinge is measured: it is the rotation of across_a from
+/// across_b about the axis.
+struct AngleZero {
   Vec3 across_a = Vec3::UnitX();  // unit, perpendicular to axis_a, in the frame of a [-]
   Vec3 across_b = Vec3::UnitX();  // unit, perpendicular to axis_b, in the frame of b [-]
 
+  template <class Part, class Field>
+  static void own_fields(Part& zero, Field&& field) {
+    field("across_a", zero.across_a);
+    field("across_b", zero.across_b);
+  }
+};
+
+/// The range of the angle is less than a full turn.
+struct AngleLimit : Limit, AngleZero {
   template <class Part, class Field>
   static void own_fields(Part& limit, Field&& field) {
     field("lower", limit.lower, kAngleRange);
     field("upper", limit.upper, kAngleRange);
     field("restitution", limit.restitution, kRestitutionRange);
-    field("across_a", limit.across_a);
-    field("across_b", limit.across_b);
+    AngleZero::own_fields(limit, field);
   }
 };
 
@@ -92,17 +100,13 @@ struct Spring {
 };
 
 /// The angle is that of AngularDrive.
-struct AngularSpring : Spring {
-  Vec3 across_a = Vec3::UnitX();  // unit, perpendicular to axis_a, in the frame of a [-]
-  Vec3 across_b = Vec3::UnitX();  // unit, perpendicular to axis_b, in the frame of b [-]
-
+struct AngularSpring : Spring, AngleZero {
   template <class Part, class Field>
   static void own_fields(Part& spring, Field&& field) {
     field("rest", spring.rest, kDriveAngleRange);
     field("stiffness", spring.stiffness, kDriveTurningStiffnessRange);
     field("damping", spring.damping, kDriveTurningDampingRange);
-    field("across_a", spring.across_a);
-    field("across_b", spring.across_b);
+    AngleZero::own_fields(spring, field);
   }
 };
 
@@ -128,10 +132,7 @@ struct Drive {
 
 /// The angle is that of AngleLimit, but not bounded: it counts full turns. At the start it is from
 /// -pi to pi.
-struct AngularDrive : Drive {
-  Vec3 across_a = Vec3::UnitX();  // unit, perpendicular to axis_a, in the frame of a [-]
-  Vec3 across_b = Vec3::UnitX();  // unit, perpendicular to axis_b, in the frame of b [-]
-
+struct AngularDrive : Drive, AngleZero {
   template <class Part, class Field>
   static void own_fields(Part& drive, Field&& field) {
     field("target", drive.target, kDriveAngleRange);
@@ -139,8 +140,7 @@ struct AngularDrive : Drive {
     field("stiffness", drive.stiffness, kDriveTurningStiffnessRange);
     field("damping", drive.damping, kDriveTurningDampingRange);
     field("torque", drive.effort, kMotorTorqueRange);
-    field("across_a", drive.across_a);
-    field("across_b", drive.across_b);
+    AngleZero::own_fields(drive, field);
   }
 };
 

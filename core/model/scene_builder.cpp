@@ -96,21 +96,18 @@ int SceneBuilder::add_hinge(int a, int b, const Vec3& point, const Vec3& axis) {
   return add(Joint(std::move(joint)));
 }
 
-Vec3 SceneBuilder::zero_of(const HingeJoint& hinge) const {
+AngleZero SceneBuilder::zero_of(const HingeJoint& hinge) const {
   Vec3 v1;
   Vec3 v2;
   across(pose_of(scene_, hinge.a).second * hinge.axis_a, v1, v2);
-  return v1;
+  return {axis_in(scene_, hinge.a, v1), axis_in(scene_, hinge.b, v1)};
 }
 
 void SceneBuilder::limit(int joint, double lower, double upper, double restitution) {
   Joint& of = scene_.joints[index(joint)];
   visit_slide(of, [&](auto& slide) { slide.limit = TravelLimit{{lower, upper, restitution}}; });
   if (auto* hinge = std::get_if<HingeJoint>(&of)) {
-    const Vec3 zero = zero_of(*hinge);
-    hinge->limit = AngleLimit{{lower, upper, restitution},
-                              axis_in(scene_, hinge->a, zero),
-                              axis_in(scene_, hinge->b, zero)};
+    hinge->limit = AngleLimit{{lower, upper, restitution}, zero_of(*hinge)};
   }
 }
 
@@ -124,9 +121,7 @@ void SceneBuilder::drive(int joint, const Drive& by) {
   Joint& of = scene_.joints[index(joint)];
   visit_slide(of, [&](auto& slide) { slide.drive = LinearDrive{by}; });
   if (auto* hinge = std::get_if<HingeJoint>(&of)) {
-    const Vec3 zero = zero_of(*hinge);
-    hinge->drive =
-        AngularDrive{by, axis_in(scene_, hinge->a, zero), axis_in(scene_, hinge->b, zero)};
+    hinge->drive = AngularDrive{by, zero_of(*hinge)};
   }
 }
 
@@ -134,9 +129,7 @@ void SceneBuilder::add_spring(int joint, const Spring& spring) {
   Joint& of = scene_.joints[index(joint)];
   visit_slide(of, [&](auto& slide) { slide.spring = LinearSpring{spring}; });
   if (auto* hinge = std::get_if<HingeJoint>(&of)) {
-    const Vec3 zero = zero_of(*hinge);
-    hinge->spring =
-        AngularSpring{spring, axis_in(scene_, hinge->a, zero), axis_in(scene_, hinge->b, zero)};
+    hinge->spring = AngularSpring{spring, zero_of(*hinge)};
   }
 }
 

@@ -74,7 +74,7 @@ class SceneBuilder {
   int add(Body body);
   int add(Joint joint);
   /// World direction from which the angle of a hinge is measured, in the current poses.
-  [[nodiscard]] Vec3 zero_of(const HingeJoint& hinge) const;
+  [[nodiscard]] AngleZero zero_of(const HingeJoint& hinge) const;
 
   Scene scene_;
 };

@@ -133,14 +133,14 @@ struct FrameReport {
   double r_rotation = 0.0;   // rotation and gyroscopic rate of the fastest-spinning body [1/s^2]
   int rotation_body = -1;    // that body; -1 if none spins or the setting is off
 
-  double kinetic = 0.0;     // synchronised with the positions [J]
-  double potential = 0.0;   // gravity and constant forces [J]
-  double elastic = 0.0;     // in compliant joints of the last sub-step, and in soft contacts [J]
-  double springs = 0.0;     // of it, in those whose oscillation a frame resolves [J]
-  double energy = 0.0;      // kinetic + potential + springs [J]
-  double parting = 0.0;     // potential energy added in this frame by parting overlaps [J]
-  int lowered = 0;          // impacts whose e was lowered, because Newton's law would add energy
-  double lowered_to = 1.0;  // the smallest share of e that was left [-]
+  double kinetic = 0.0;    // synchronised with the positions [J]
+  double potential = 0.0;  // gravity and constant forces [J]
+  double elastic = 0.0;    // in compliant joints of the last sub-step, soft contacts, springs [J]
+  double springs = 0.0;    // of it, in springs and in joints whose oscillation a frame resolves [J]
+  double energy = 0.0;     // kinetic + potential + springs [J]
+  double parting = 0.0;    // potential energy added in this frame by parting overlaps [J]
+  int lowered = 0;         // impacts whose e was lowered, because Newton's law would add energy
+  double lowered_to = 1.0;        // the smallest share of e that was left [-]
   double constraint_error = 0.0;  // sum of |phi| of joint rows, springs excepted [m, rad]
   double joint_gap = 0.0;         // largest gap of a joint that is no spring [m]
   int joint_gap_joint = -1;       // index of that joint

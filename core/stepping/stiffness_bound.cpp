@@ -1,13 +1,18 @@
 #include "core/stepping/stiffness_bound.hpp"
 
+#include <algorithm>
+
 #include "core/constraints/joint_rows.hpp"
+#include "core/model/joint_fields.hpp"
 
 namespace substep {
 
 StiffnessStage::StiffnessStage(const Scene& scene) {
   const std::size_t joints = scene.effects.joints ? 2 * scene.joints.size() : 0;
   const std::size_t contacts = scene.effects.contact ? 4 * scene.bodies.size() : 0;
-  K_.reserve(scene.bodies.size(), joints + contacts);
+  const bool ropes =  // they may become taut later
+      scene.effects.limits && std::any_of(scene.joints.begin(), scene.joints.end(), rope_length_of);
+  K_.reserve(scene.bodies.size(), joints + contacts, ropes);
 }
 
 void StiffnessStage::evaluate(const Scene& scene, std::span<const Block> blocks, ContactTerms terms,

@@ -83,11 +83,15 @@ TEST(LimitsMotorsAndDrives, AllocateNothingAfterTheFirstFrame) {
     if (i == 2) builder.drive(hinge, 2.0, 1.5);
     if (i > 0) builder.rub(hinge, 0.1);
     builder.add_armature(hinge, 0.05);
+    builder.add_spring(hinge, {.stiffness = 5.0, .damping = 0.1});
     if (i == 1) {
       builder.drive(hinge, {.target = 1.0, .stiffness = 20.0, .damping = 1.0, .effort = 5.0});
     }
     last = body;
   }
+  const int ball = builder.add_body(Sphere{0.05}, 0.5, {1.5, -0.2, 0.0});
+  builder.body(ball).collides = false;
+  builder.add_rope(ball, last, {1.5, -0.2, 0.0}, {1.5, 0.0, 0.0}, 0.4, 0.5);
   EXPECT_EQ(allocated(*builder.build(), substep::Settings{}), 0);
 }
 

@@ -158,25 +158,26 @@ inline void join(Scene& scene, int a, int b, const Vec3& point) {
   hinge.axis_a = turned(a, axis);
   hinge.axis_b = turned(b, axis);
   hinge.angular_compliance = any_compliance();
+  Vec3 v1;
+  Vec3 v2;
+  across(axis, v1, v2);
+  const AngleZero zero{turned(a, v1), turned(b, v1)};
   if (one_in(3)) {
-    Vec3 v1;
-    Vec3 v2;
-    across(axis, v1, v2);
     const double lower = -number(0.0, 3.0);
     const double upper = lower + number(-lower + 1e-3, 3.0);
-    hinge.limit = AngleLimit{
-        {lower, upper, one_in(2) ? 0.0 : number(0.0, 1.0)}, turned(a, v1), turned(b, v1)};
+    hinge.limit = AngleLimit{{lower, upper, one_in(2) ? 0.0 : number(0.0, 1.0)}, zero};
   }
   if (one_in(4)) hinge.motor = AngularMotor{{number(-50.0, 50.0), magnitude(1e-6, 1e6)}};
   if (one_in(4)) {
-    Vec3 v1;
-    Vec3 v2;
-    across(axis, v1, v2);
     Drive drive{.target = number(-20.0, 20.0), .velocity = number(-5.0, 5.0)};
     drive.stiffness = one_in(4) ? 0.0 : magnitude(1e-9, 1e9);
     drive.damping = one_in(4) && drive.stiffness > 0.0 ? 0.0 : magnitude(1e-9, 1e9);
     if (one_in(2)) drive.effort = magnitude(1e-6, 1e6);
-    hinge.drive = AngularDrive{drive, turned(a, v1), turned(b, v1)};
+    hinge.drive = AngularDrive{drive, zero};
+  }
+  if (one_in(4)) {
+    hinge.spring = AngularSpring{{number(-20.0, 20.0), magnitude(1e-9, 1e9), 0.0}, zero};
+    if (one_in(2)) hinge.spring->damping = magnitude(1e-9, 1e9);
   }
   if (one_in(4)) hinge.friction = magnitude(1e-6, 1e6);
   if (one_in(4)) hinge.armature = magnitude(1e-12, 1e6);

@@ -500,7 +500,7 @@ TEST(Armature, ContinuesFromASavedScene) {
   Vec3 v1;
   Vec3 v2;
   across(hinge.axis_a, v1, v2);
-  hinge.drive = AngularDrive{{.target = 1.0, .stiffness = 5.0, .damping = 0.1}, v1, v1};
+  hinge.drive = AngularDrive{{.target = 1.0, .stiffness = 5.0, .damping = 0.1}, {v1, v1}};
   scene.effects.drives = true;
   for (const JointMethod& method : joint_methods()) {
     SCOPED_TRACE(method.name);

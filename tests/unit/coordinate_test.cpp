@@ -379,12 +379,12 @@ TEST(CoordinateStage, IdsAreThoseOfNoJointContactOrGrab) {
   scene.bodies = {moving(Sphere{0.1}), moving(Sphere{0.1})};
   HingeJoint hinge;
   hinge.b = 1;
-  hinge.limit = AngleLimit{{-1.0, 1e-4, 0.0}, Vec3::UnitX(), Vec3::UnitX()};
+  hinge.limit = AngleLimit{{-1.0, 1e-4, 0.0}, {}};
   hinge.motor = AngularMotor{{1.0, 2.0}};
-  hinge.drive = AngularDrive{{.stiffness = 3.0}};
+  hinge.drive = AngularDrive{{.stiffness = 3.0}, {}};
   hinge.friction = 4.0;
   hinge.armature = 5.0;
-  hinge.spring = AngularSpring{{.rest = 6.0, .stiffness = 7.0, .damping = 8.0}};
+  hinge.spring = AngularSpring{{.rest = 6.0, .stiffness = 7.0, .damping = 8.0}, {}};
   scene.joints = {BallJoint{}, hinge};
   CoordinateStage stage(scene);
   EXPECT_EQ(stage.size(), 7U);

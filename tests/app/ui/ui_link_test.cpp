@@ -279,12 +279,15 @@ TEST(Link, OfAnEditedSceneIsOpened) {
   }
 }
 
-TEST(Link, OfASceneWithoutItsLimitsOrMotorsIsOpened) {
+TEST(Link, OfASceneWithoutOneOfItsEffectsIsOpened) {
   SceneBuilder builder("arm");
   const int rod = builder.add_body(Box{{0.5, 0.05, 0.05}}, 1.0, {0.5, 0.0, 0.0});
   const int hinge = builder.add_hinge(rod, kWorld, Vec3::Zero(), Vec3::UnitZ());
   builder.limit(hinge, -1.0, 1.0, 0.5);
   builder.drive(hinge, 2.0, 1.0);
+  builder.add_spring(hinge, {.stiffness = 3.0});
+  const int ball = builder.add_body(Sphere{0.1}, 1.0, {2.0, 0.0, 0.0});
+  builder.add_rope(ball, rod, {2.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 1.5);
   for (const EffectEntry& effect : kEffects) {
     Session session(builder.build());
     for (int i = 0; i < 5; ++i) session.step();

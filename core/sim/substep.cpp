@@ -109,6 +109,7 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
 
 bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   sub.shift = sub.gain = {};
+  sub.solved = 0;
   begins_with_impact = false;
   if (!sub.drives_on.empty()) sum_drives(sub);
   if (!(sweeps_motion(sub) ? solve_until_impact(sub, report) : solve_rows(sub, report))) {

@@ -71,6 +71,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, bool shortens, FrameReport& repo
   for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = state.u[i] - sub.u_before[i];
   lowered = 0;
   lowered_to = 1.0;
+  sub.solved = 0;
   if (coordinates) seed(sub);  // whether a limit rests is known from its last force
   if (!strike(sub, report)) return false;
   const int lowered_at_start = lowered;
@@ -85,6 +86,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, bool shortens, FrameReport& repo
     if (solves > 0 && !within_budget(sub, report)) return false;
     if (!solve_softly(sub, report)) return false;
     solved = blocks.size();
+    sub.solved = solved - first_block;
     found = sweep(sub, shortened > 0 ? kAhead * sub.dt : sub.dt);
     if (too_many_swept()) {
       report.status = StepStatus::kTooManyContacts;
@@ -151,6 +153,7 @@ bool Simulator::Impl::solve_softly(Substep& sub, FrameReport& report) {
     }
     if (last_solve < SolveStatus::kUnsolved) break;
     if (softness < 1e4 * kRigidContact) report.work.unsolved = unsolved;
+    sub.solved = 0;  // what the solver fell back to is no start
   }
   return true;
 }

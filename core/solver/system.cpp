@@ -73,6 +73,20 @@ void mean_sliding(const double* before, const double* after, double c, double s,
   block.softness[2] = block.softness[1];  // until soften_across()
 }
 
+// What friction stops within this part of the sub-step sticks. Its direction is that of rounding
+// errors in a body at rest, and tangents that follow it change the forces in every sub-step.
+double slowest_sliding(const System& system, const Block& contact, double normal_speed) {
+  constexpr double kOfForces = 1e-5;  // of the speed that forces give in the sub-step [-]
+  constexpr double kOfNormal = 1e-6;  // of the normal speed [-]
+  double by_forces = 0.0;
+  for (const int body : {contact.a, contact.b}) {
+    if (body < 0 || system.u_before.empty()) continue;
+    const Vec6 change = system.u[index(body)] - system.u_before[index(body)];
+    by_forces += change.head<3>().norm();
+  }
+  return std::max(kOfForces * by_forces, kOfNormal * std::abs(normal_speed));
+}
+
 }  // namespace
 
 double mobility_on(const Block& block, int row, bool of_a,
@@ -148,7 +162,6 @@ void point_cone(Block& block, double along_t1, double along_t2) {
 }
 
 void align_tangents(const System& system) {
-  constexpr double kLeastSliding = 1e-6;  // of the normal speed: slower has no direction [-]
   const bool knows_before = !system.u_sliding.empty();
   for (Block& block : system.blocks) {
     if (block.rows != 3 || !block.is_contact()) continue;
@@ -164,7 +177,7 @@ void align_tangents(const System& system) {
     }
     const double mean[] = {0.5 * (before[1] + after[1]), 0.5 * (before[2] + after[2])};
     const double length = std::sqrt(mean[0] * mean[0] + mean[1] * mean[1]);
-    if (!(length > kLeastSliding * std::abs(after[0]))) continue;
+    if (!(length > slowest_sliding(system, block, after[0]))) continue;
     const double c = mean[0] / length;
     const double s = mean[1] / length;
     const auto turn = [&](double& along_t1, double& along_t2) {

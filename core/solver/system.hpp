@@ -144,9 +144,10 @@ void point_cone(Block& block, double along_t1, double along_t2);
 
 /// Isotropic friction for solvers that bound each tangent: rotates the tangents of every contact,
 /// with their rows, so that t1 points along its sliding, and prepares soften_across(). The sliding
-/// is the mean of that of u_sliding and u of the system. Without u_sliding, as in impacts, it is
-/// that of u, and no row yields. Changes bias and softness of row 2, once for each solve. Impulses
-/// are not rotated: those of the last sub-step belong to its sliding, too.
+/// is the mean of that of u_sliding and u of the system; where it is too slow to have a direction,
+/// the tangents stay. Without u_sliding, as in impacts, it is that of u, and no row yields. Changes
+/// bias and softness of row 2, once for each solve. Impulses are not rotated: those of the last
+/// sub-step belong to its sliding, too.
 void align_tangents(const System& system);
 
 /// Row 2 of a contact that slides yields: the force points against the sliding, so that to first

@@ -55,7 +55,7 @@ void seed_forces(const Substep& sub, const State& state, std::span<const StoredF
                  StoredForceIndex& index) {
   std::size_t next = 0;  // blocks are mostly in the order of the last sub-step
   const bool of_joints = starts_from_last_forces(sub.settings) || springs_are_stored(sub);
-  for (Block& block : sub.rows) {
+  for (Block& block : sub.rows.subspan(sub.solved)) {
     for (double& impulse : block.impulse) impulse = 0.0;
     block.seeded = false;
     if (block.is_bounded()) {

@@ -35,7 +35,8 @@ class StoredForceIndex {
   std::int64_t visits_ = 0;
 };
 
-/// Sets the seed of each block to the force that was stored for it. @param index of `of_last`
+/// Sets the seed of each block that this sub-step has not solved yet to the force that was stored
+/// for it. @param index of `of_last`
 void seed_forces(const Substep& sub, const State& state, std::span<const StoredForce> of_last,
                  StoredForceIndex& index);
 

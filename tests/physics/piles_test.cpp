@@ -79,6 +79,19 @@ TEST(Piles, ARestingPyramidStopsSinking) {
   EXPECT_LT(late.kinetic, 1e-9);
 }
 
+// Sliding at the speed of rounding errors has no direction: tangents that followed it would change
+// the forces, and with them the rows at their bounds, in every sub-step for ever.
+TEST(Piles, ARestingPyramidKeepsItsForces) {
+  Simulator simulator(std::make_shared<const Scene>(pyramid_of(15, 0.5)));
+  for (int i = 0; i < 150; ++i) simulator.step();
+  for (int i = 0; i < 10; ++i) {
+    const FrameReport report = simulator.step();
+    EXPECT_EQ(report.work.pivots, 0);
+    EXPECT_EQ(report.work.solves, report.n_substeps);
+    EXPECT_LT(report.kinetic, 1e-20);
+  }
+}
+
 // A box on a slope, which friction holds: neither it nor the contacts creep.
 TEST(Piles, ABoxOnASlopeDoesNotCreep) {
   SceneBuilder builder("slope");

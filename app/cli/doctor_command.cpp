@@ -286,7 +286,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  substep doctor pendulum\n"
       "  substep doctor swinging_box --step 5e-4 --engine mujoco --json diagnosis.json\n"
-      "  substep doctor swinging_box --engine mujoco --html step.html --badge step.svg");
+      "  substep doctor my_robot.xml --engine mujoco --step 0.002 --html step.html --badge "
+      "step.svg");
   command->callback([options, &exit_code] {
     keep_apart({{"--json", options->json}, {"--html", options->html}, {"--badge", options->badge}},
                {scene_path(options->scene)});

@@ -235,8 +235,9 @@ test("the doctor reads the step of a model, fails above it, and a link has the s
   assert.match(await doctor.locator("#verdict").innerText(),
     /^MuJoCo, integrator Euler, needs steps below 7\.\d+\sms, set by the geometric stiffness of joint_\d/);
   // The picture rings the joint, and shows the run that fails above the limit.
-  assert.ok(first.joints.length > 0);
   await runsAt(doctor, "At 10 ms");
+  assert.deepEqual((await call(doctor, "report")).ringed, first.joints.map(({ name }) => name));
+  assert.match(first.joints[0].name, /^joint_\d$/);
   assert.match(await verdictAfter(doctor, 1), /^fails at/);
   await doctor.click("#below");
   await runsAt(doctor, `At ${(0.9e3 * limit).toPrecision(3)} ms`);

@@ -8,6 +8,7 @@ App::App(Library shipped, std::unique_ptr<Renderer> draws)
     : Lab(std::move(shipped)), renderer(std::move(draws)) {
   restarted = [this](bool loaded) {
     if (loaded) desk.selected = -1;
+    if (loaded) desk.ringed.clear();
     if (loaded) introduction.close(*this);  // another run has replaced it
     if (loaded && !tour.runs(*this)) tour.close(*this);
     // A restarted run is shown from its start, at the chosen zoom.

@@ -263,6 +263,7 @@ const char* substep_report() {
       {"selected", app().desk.selected < 0
                        ? ""
                        : s.scene().bodies[static_cast<std::size_t>(app().desk.selected)].name},
+      {"ringed", app().desk.ringed},
       {"notice", app().notice.left > 0.0 ? app().notice.text : ""},
       {"view", {scale * v.x, scale * v.y, scale * v.width, scale * v.height}},
       {"frame_time", app().frame_time},

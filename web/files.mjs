@@ -7,7 +7,8 @@ const prefix = "substep."; // of stored keys
 const types = { json: "application/json", csv: "text/csv", png: "image/png", svg: "image/svg+xml",
   webm: "video/webm", mp4: "video/mp4" };
 
-async function textOf(file) {
+/** The content of a file; throws an Error that says why it is no text. */
+export async function textOf(file) {
   if (file.size > largest) {
     throw new Error(`${(file.size / 1e6).toFixed(0)} MB are too large: a scene file has ` +
       `at most ${(largest / 1e6).toFixed(0)} MB here, and 32 MB on the command line`);
@@ -26,7 +27,8 @@ async function textOf(file) {
   return text;
 }
 
-async function copy(text) {
+/** @returns whether the text is in the clipboard */
+export async function copy(text) {
   try {
     await navigator.clipboard.writeText(text);
     return true;

@@ -36,8 +36,11 @@ async function through(bytes, stream, most = Infinity) {
 }
 
 /** @param text a scene file @returns URL-safe characters */
-export async function pack(text) {
-  const plain = new TextEncoder().encode(JSON.stringify(JSON.parse(text)));
+export const pack = (text) => packText(JSON.stringify(JSON.parse(text)));
+
+/** @param text any @returns URL-safe characters */
+export async function packText(text) {
+  const plain = new TextEncoder().encode(text);
   const packed = await through(plain, new CompressionStream("deflate-raw"));
   let letters = "";
   for (const byte of packed) letters += String.fromCharCode(byte);

@@ -75,6 +75,12 @@ const exported = {
   widgets: "s", memory: "s",
 };
 
+// Of web/doctor.cpp: they need no application.
+const exportedByDoctor = {
+  doctor_open: "sss", doctor_diagnose: "ss", doctor_scene: "s", doctor_run: "sn", doctor_remedied: "sn", doctor_html: "s",
+  doctor_badge: "s", doctor_engines: "s",
+};
+
 const encoder = new TextEncoder();
 
 /**
@@ -118,6 +124,34 @@ export function loseContext(canvas) {
 
 const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
 
+/** A module of its own. @param more of its options */
+const instantiate = (engine, more) => engine.create({
+  ...more,
+  instantiateWasm(imports, done) {
+    WebAssembly.instantiate(engine.compiled, imports).then((instance) => done(instance));
+    return {};
+  },
+  // Read once by each instance, which may take ownership.
+  getPreloadedPackage: () => engine.data.slice(0),
+  print: (text) => console.log(text),
+  printErr: (text) => console.warn(text),
+});
+
+/** Adds the exports by their names in camel case. */
+function addExports(wasm, module, signatures) {
+  for (const [name, signature] of Object.entries(signatures)) {
+    wasm[camel(name)] = wrap(module, name, signature, wasm);
+  }
+}
+
+/** The exports of a module for the step doctor, without an application. */
+export async function makeDoctorEngine(engine) {
+  const wasm = { stopped: "" };
+  wasm.stop = (error) => { wasm.stopped = `the doctor stopped: ${error.message}`; };
+  addExports(wasm, await instantiate(engine, {}), exportedByDoctor);
+  return wasm;
+}
+
 /**
  * A separate application for a canvas.
  * @param engine the result of loadEngine
@@ -127,26 +161,13 @@ const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase(
  *   releaseGraphics() releases the context until takeGraphics(), close() permanently
  */
 export async function makeEngine(engine, canvas, host, renderer) {
-  const module = await engine.create({
-    host,
-    canvas,
-    instantiateWasm(imports, done) {
-      WebAssembly.instantiate(engine.compiled, imports).then((instance) => done(instance));
-      return {};
-    },
-    // Read once by each instance, which may take ownership.
-    getPreloadedPackage: () => engine.data.slice(0),
-    print: (text) => console.log(text),
-    printErr: (text) => console.warn(text),
-  });
+  const module = await instantiate(engine, { host, canvas });
   const wasm = { stopped: "" };
   wasm.stop = (error) => {
     wasm.stopped = `the laboratory stopped: ${error.message}`;
     host.stopped?.();
   };
-  for (const [name, signature] of Object.entries(exported)) {
-    wasm[camel(name)] = wrap(module, name, signature, wasm);
-  }
+  addExports(wasm, module, exported);
   let losing = null; // WEBGL_lose_context: loses and restores a context
   wasm.run = (keeps) => {
     // With alpha, although all pixels are opaque: masking it out is slow in a software renderer.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "app/app.hpp"
 #include "app/text/event_text.hpp"
@@ -72,6 +73,29 @@ std::string select_body(App& app, std::string_view name) {
   return "";
 }
 
+// Joints by their names, separated by commas, or "none". A name may have a comma itself.
+std::string ring_joints(App& app, std::string_view value) {
+  const auto& joints = app.session.scene().joints;
+  const auto is_joint = [&](std::string_view name) {
+    return std::any_of(joints.begin(), joints.end(),
+                       [&](const Joint& joint) { return base(joint).name == name; });
+  };
+  std::vector<std::string> names;
+  if (is_joint(value)) {
+    names.emplace_back(value);
+  } else if (value != "none") {
+    for (std::string_view rest = value;;) {
+      const std::string_view name = rest.substr(0, rest.find(','));
+      if (!is_joint(name)) return "no joint is called '" + std::string(name) + "'";
+      names.emplace_back(name);
+      if (name.size() == rest.size()) break;
+      rest.remove_prefix(name.size() + 1);
+    }
+  }
+  app.desk.ringed = std::move(names);
+  return "";
+}
+
 // The names of the plots to show, separated by commas.
 std::string choose_plots(std::string_view value, Desk& desk) {
   static constexpr std::array<std::string_view, static_cast<std::size_t>(Plot::kCount)> kNames{
@@ -111,6 +135,7 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
   }
   if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
   if (key == "panels") return choose(value, {"off", "on"}, desk.panels);
+  if (key == "cards") return choose(value, {"off", "on"}, desk.cards);
   for (const ViewSwitch& option : kViewSwitches) {
     // `forces` is also a setting, with other values.
     const bool is_setting = find_setting(key) != nullptr && value != "off" && value != "on";
@@ -130,6 +155,7 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
   }
   if (key == "menu") return choose(value, {"none", "share"}, desk.open_share_menu);
   if (key == "select") return select_body(app, value);
+  if (key == "ring") return ring_joints(app, value);
   if (key == "views") return choose(value, {"ghosts", "split"}, desk.split);
   if (key == "panel") return choose_panel(value, desk);
   if (key == "plots") return choose_plots(value, desk);

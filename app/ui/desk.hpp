@@ -69,6 +69,7 @@ struct Desk {
   DeskLevel level = DeskLevel::kLab;  // a first visit begins in kExplore, see recall_arrangement()
   bool dark = true;
   bool panels = true;  // false: only the picture
+  bool cards = true;   // false: neither the card of a failure nor the tour is offered
   bool whole = true;   // the panels are drawn in this frame, see DrawOptions
   ShownN shown_n;
   std::vector<int> shown_ns;  // N of this run and of those compared with it, as last shown
@@ -89,8 +90,9 @@ struct Desk {
   bool tour_in_page = false;  // the page shows its text beside the canvas
   bool tour_hint = false;     // the tour was neither taken nor dismissed
   ViewOptions view;
-  int selected = -1;       // body, or -1
-  bool card_left = false;  // the selection card is on the left of the view
+  int selected = -1;                // body, or -1
+  std::vector<std::string> ringed;  // joints, by their names
+  bool card_left = false;           // the selection card is on the left of the view
   ui::TimeAxis time;
   std::string unfolded_scene;  // scene whose variants are unfolded in the list
   ui::Thumbnails thumbnails;   // in that list

@@ -15,23 +15,6 @@ namespace {
 constexpr float kLeastRing = 15.0F;  // radius [px]
 constexpr float kMostRing = 90.0F;
 
-// To the right of the ring, or to its left; if there is no room, above it.
-void ring_label(const Look& look, ImDrawList& draw, ImVec2 centre, float radius,
-                const ViewRect& pane, const std::string& text) {
-  constexpr float kGap = 8.0F;
-  const ImVec2 size = text_size(look.fonts.medium, text);
-  const float least = pane.x + kGap;
-  const float most = std::max(least, pane.x + pane.width - kGap - size.x);
-  ImVec2 at(centre.x + radius + kGap, centre.y - 0.5F * size.y);
-  if (at.x > most) at.x = centre.x - radius - kGap - size.x;
-  if (at.x < least) {
-    at = {std::clamp(centre.x - 0.5F * size.x, least, most), centre.y - radius - kGap - size.y};
-  }
-  draw.AddRectFilled({at.x - 6.0F, at.y - 3.0F}, {at.x + size.x + 6.0F, at.y + size.y + 3.0F},
-                     fade(look.theme->panel, 0.8F), look.m.radius);
-  draw_text(draw, look.fonts.medium, at, look.theme->text, text);
-}
-
 void ring(const Look& look, ImDrawList& draw, const Viewport& viewport, const Failure& failure,
           std::size_t pane, ImU32 color) {
   ImVec2 from;
@@ -60,6 +43,22 @@ void ring(const Look& look, ImDrawList& draw, const Viewport& viewport, const Fa
 }
 
 }  // namespace
+
+void ring_label(const Look& look, ImDrawList& draw, ImVec2 centre, float radius,
+                const ViewRect& pane, const std::string& text) {
+  constexpr float kGap = 8.0F;
+  const ImVec2 size = text_size(look.fonts.medium, text);
+  const float least = pane.x + kGap;
+  const float most = std::max(least, pane.x + pane.width - kGap - size.x);
+  ImVec2 at(centre.x + radius + kGap, centre.y - 0.5F * size.y);
+  if (at.x > most) at.x = centre.x - radius - kGap - size.x;
+  if (at.x < least) {
+    at = {std::clamp(centre.x - 0.5F * size.x, least, most), centre.y - radius - kGap - size.y};
+  }
+  draw.AddRectFilled({at.x - 6.0F, at.y - 3.0F}, {at.x + size.x + 6.0F, at.y + size.y + 3.0F},
+                     fade(look.theme->panel, 0.8F), look.m.radius);
+  draw_text(draw, look.fonts.medium, at, look.theme->text, text);
+}
 
 void failure_rings(const Look& look, const Lab& lab, const Viewport& viewport) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();

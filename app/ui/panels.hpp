@@ -150,6 +150,8 @@ void caption(const Look& look, const Session& session, Desk& desk, const Viewpor
              bool phone);
 void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
 void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
+/// Rings around the joints of Desk::ringed, with their names.
+void joint_rings(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
 /// A ring around what failed in each run, with its measure.
 void failure_rings(const Look& look, const Lab& lab, const Viewport& viewport);
 /// On the first screen: a ring around the first joint that came apart, also as it opens further.

@@ -271,9 +271,9 @@ void draw_window(App& app) {
   if (app.desk.tour >= 0 && !app.desk.tour_in_page) {
     words = tour_words(app, static_cast<std::size_t>(app.desk.tour), app.tour.loop());
   }
-  tour(app.look, app.desk, app, words ? &*words : nullptr);
+  if (app.desk.cards || words) tour(app.look, app.desk, app, words ? &*words : nullptr);
   if (!small) accuracy_card(app.look, app, app.desk, app);
-  failure_card(app.look, app, app.desk, app);
+  if (app.desk.cards) failure_card(app.look, app, app.desk, app);
   help_card(app.look, app, app.desk, app);
   file_card(app.look, app, app, app.browser);
   heavy_card(app.look, app, app);
@@ -289,6 +289,7 @@ void draw_over_picture(App& app) {
   const bool small = is_small(ImGui::GetIO().DisplaySize);
   annotations(app.look, app, app.desk, app);
   body_labels(app.look, app, app.desk, app);
+  joint_rings(app.look, app, app.desk, app);
   failure_rings(app.look, app, app);
   caption(app.look, app.session, app.desk, app, small);
   compare_legend(app.look, app.session, app.compare, app.desk, app);

@@ -32,6 +32,8 @@ struct ImportNotes {
 struct ImportReport {
   std::vector<std::string> came_in;  // "9 moving bodies, 20.3 kg"
   std::string starts;                // other starts that the model has: "home, squat"; or ""
+  double timestep = 0.0;             // of the engine that the model is for; 0: it says none [s]
+  std::string integrator;            // of that engine, or ""
   ImportNotes approximated;          // read, but not as the model has it
   ImportNotes left_out;              // not read
   ImportNotes errors;                // why there is no scene

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/import/mjcf_model.hpp"
+#include "core/model/number_text.hpp"
 #include "core/model/problem.hpp"
 #include "core/model/scene_limits.hpp"
 
@@ -77,6 +78,8 @@ void read_flags(const MjcfContext& context, const XmlElement& option, MjcfFlags&
 
 MjcfFlags read_options(const MjcfContext& context, Mechanism& mechanism) {
   MjcfFlags flags;
+  context.report.timestep = 0.002;  // MuJoCo's default
+  context.report.integrator = "Euler";
   for (const XmlElement& element : context.document.root.children) {
     if (element.name != "option") continue;
     MjcfAttributes in(context, element);
@@ -85,7 +88,13 @@ MjcfFlags read_options(const MjcfContext& context, Mechanism& mechanism) {
                "jacobian", "cone", "impratio", "timestep", "apirate", "sdf_iterations",
                "sdf_initpoints"});
     mechanism.gravity = in.vector("gravity", mechanism.gravity, kGravityRange);
-    if (in.text("timestep") != nullptr || in.text("integrator") != nullptr) {
+    const std::string* timestep = in.text("timestep");
+    const std::string* integrator = in.text("integrator");
+    if (timestep != nullptr) {
+      context.report.timestep = parse_number(*timestep).value_or(context.report.timestep);
+    }
+    if (integrator != nullptr) context.report.integrator = *integrator;
+    if (timestep != nullptr || integrator != nullptr) {
       context.report.left_out.add(in.place(),
                                   "time step, integrator and solver: the scene has its own");
     }

@@ -406,26 +406,35 @@ class Doctor {
     for (const LinearModel::Share& drive : limit.drives) by_drives += drive.share;
     d.by_drive = by_drives > 0.5;
     if (d.by_drive) {
-      d.limited_by = drives_text(limit.drives) + when;
+      d.joints = leading(limit.drives);
+      d.limited_by = drives_text(d.joints) + when;
     } else if (!limit.joints.empty()) {
-      d.limited_by =
-          "the geometric stiffness of " + named_joint(*scene_, limit.joints[0].index) + when;
+      d.joints = {limit.joints[0].index};
+      d.limited_by = "the geometric stiffness of " + named_joint(*scene_, d.joints[0]) + when;
     }
   }
 
-  /// The drives and springs that make up half of the stiffness in a mode.
+  /// The joints whose drives and springs make up half of the stiffness in a mode.
   /// @param drives largest first
-  [[nodiscard]] std::string drives_text(const std::vector<LinearModel::Share>& drives) const {
-    std::vector<std::string> names;
+  static std::vector<int> leading(const std::vector<LinearModel::Share>& drives) {
+    std::vector<int> joints;
     double sum = 0.0;
-    bool are_drives = false;
-    bool are_springs = false;
     for (const LinearModel::Share& drive : drives) {
       if (sum > 0.5) break;
-      names.push_back(named_joint(*scene_, drive.index));
-      are_drives = are_drives || drive_of(scene_->joints[index(drive.index)]) != nullptr;
-      are_springs = are_springs || spring_of(scene_->joints[index(drive.index)]) != nullptr;
+      joints.push_back(drive.index);
       sum += drive.share;
+    }
+    return joints;
+  }
+
+  [[nodiscard]] std::string drives_text(const std::vector<int>& joints) const {
+    std::vector<std::string> names;
+    bool are_drives = false;
+    bool are_springs = false;
+    for (const int joint : joints) {
+      names.push_back(named_joint(*scene_, joint));
+      are_drives = are_drives || drive_of(scene_->joints[index(joint)]) != nullptr;
+      are_springs = are_springs || spring_of(scene_->joints[index(joint)]) != nullptr;
     }
     const bool are_many = names.size() > 1;
     std::string text = "the ";
@@ -452,8 +461,9 @@ class Doctor {
       d.step = drive.step;
       d.by_drive = true;
       const bool late = drive.delay_step < drive.held_step && question_.held > 1;
-      d.limited_by = drives_text({{drive.joint, 1.0}}) +
-                     (late ? ", held over several steps with too little damping" : "");
+      d.joints = {drive.joint};
+      d.limited_by =
+          drives_text(d.joints) + (late ? ", held over several steps with too little damping" : "");
     }
   }
 
@@ -527,6 +537,7 @@ class Doctor {
     for (int i = 0; i < kMost && step > kShortest; ++i, step *= 0.5) {
       try_remedy(format_text("a step of %.3g s", step), at_step(*shaken_, step),
                  explicit_settings(), diagnosis_.step);
+      diagnosis_.remedies.back().shorter = step;
       if (diagnosis_.remedies.back().holds) return;
     }
   }
@@ -589,6 +600,7 @@ class Doctor {
     const Scene changed = one ? on_one(*amount) : on_all(*amount);
     try_remedy(text, at_step(shaken(changed), question_.step), explicit_settings(),
                foretold(changed));
+    diagnosis_.remedies.back().changed = std::make_shared<const Scene>(changed);
   }
 
   void try_inertia() {
@@ -607,6 +619,7 @@ class Doctor {
     try_remedy(
         format_text("%g times the moments of inertia of ", *factor) + named_body(*scene_, body),
         at_step(shaken(changed), question_.step), explicit_settings(), foretold(changed));
+    diagnosis_.remedies.back().changed = std::make_shared<const Scene>(changed);
   }
 
   std::shared_ptr<const Scene> scene_;
@@ -679,6 +692,14 @@ std::vector<Finding> static_findings(const Scene& scene, const State& state) {
         named_body(scene, model.bodies()[0]).c_str(), model.redundant()));
   }
   return findings;
+}
+
+Scene scene_at_step(const Scene& scene, double step) {
+  Scene out = shaken(scene);
+  out.frame = step;
+  out.settings = explicit_settings();
+  out.recommended.reset();
+  return out;
 }
 
 Diagnosis diagnose(std::shared_ptr<const Scene> scene, const DoctorQuestion& question) {

@@ -9,6 +9,7 @@
 #include "core/lab/engines.hpp"
 #include "core/lab/linear_model.hpp"
 #include "core/model/budget.hpp"
+#include "core/model/range.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {
@@ -27,6 +28,11 @@ struct DoctorQuestion {
   Budget budget = {};    // of each frame of a run
 };
 inline constexpr double kMostSeconds = 5.0;
+
+// What may be asked.
+inline constexpr Range kStepRange{1e-5, 1.0, false, false, "s"};
+inline constexpr Range kRunRange{1e-3, 86400.0, false, false, "s"};
+inline constexpr int kMostHeld = 1000;
 
 /// A model's group of bodies at one time: the largest step of its linearisation.
 struct GroupLimit {
@@ -87,6 +93,8 @@ struct TriedRemedy {
   double operations = 0.0;  // of the solver, per second of the model
   double cost = 1.0;        // of them, relative to the run with the asked step [-]
   double moved = 0.0;       // largest distance of a body from a fine run of the model [m]
+  double shorter = 0.0;     // the step, if it is another [s]; else 0
+  std::shared_ptr<const Scene> changed;  // the model, if it is another; else null
 };
 
 struct Diagnosis {
@@ -94,10 +102,11 @@ struct Diagnosis {
   Verdict verdict = Verdict::kNotUnderstood;
   std::string problem;  // if not understood
   DoctorQuestion question;
-  double step = kNoLimit;  // the smallest foretold [s]
-  std::string limited_by;  // what sets it
-  bool by_drive = false;   // a drive: the run with the asked step, whose drives are implicit, does
-                           // not show it
+  double step = kNoLimit;   // the smallest foretold [s]
+  std::string limited_by;   // what sets it
+  std::vector<int> joints;  // that set it, the first most
+  bool by_drive = false;    // a drive: the run with the asked step, whose drives are implicit, does
+                            // not show it
   std::vector<GroupFacts> groups;
   int too_large = 0;              // bodies of groups that were not analysed
   std::vector<GroupLimit> start;  // of each group
@@ -110,6 +119,10 @@ struct Diagnosis {
 
 /// Answers a question about a scene.
 Diagnosis diagnose(std::shared_ptr<const Scene> scene, const DoctorQuestion& question);
+
+/// The run that Diagnosis::at_step judges, with its settings: the scene after the doctor's shake,
+/// in frames of the step that the paper's scheme takes at once. @param step [s]
+Scene scene_at_step(const Scene& scene, double step);
 
 /// The static checks alone.
 std::vector<Finding> static_findings(const Scene& scene, const State& state);

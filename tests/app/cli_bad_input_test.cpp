@@ -66,6 +66,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NoSceneToCheck", "check", "scene or --all is required"},
         BadCall{"TwoResultsOnStandardOutput", "run bridge --csv - --json -",
                 "already used by --csv"},
+        BadCall{"ReportAndBadgeOnStandardOutput", "doctor pendulum --html - --badge -",
+                "--badge: standard output is already used by --html"},
         BadCall{"StatesAndJointsOnStandardOutput", "run bridge --states - --joints -",
                 "--joints: standard output is already used by --states"},
         BadCall{"StatesInNoFolder", "run bridge --frames 1 --states /no/such/folder/a.csv",

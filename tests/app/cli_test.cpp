@@ -526,6 +526,24 @@ TEST(CommandLine, TheDoctorSaysByItsExitCodeWhetherAStepHolds) {
   EXPECT_EQ(substep("doctor pendulum --engine none").exit_code, 2);
 }
 
+TEST(CommandLine, TheDoctorWritesAReportAndABadge) {
+  const std::filesystem::path html = folder() / "step.html";
+  const std::filesystem::path badge = folder() / "step.svg";
+  const Outcome run = substep("doctor swinging_box --no-runs --engine mujoco --html \"" +
+                              html.string() + "\" --badge \"" + badge.string() + '"');
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_NE(run.out.find("Largest step: 5.37 ms"), std::string::npos) << run.out;
+  const std::string page = text_of(html.string());
+  EXPECT_NE(page.find("MuJoCo, integrator Euler, needs steps below 5.37 ms, set by the geometric "),
+            std::string::npos)
+      << page;
+  EXPECT_NE(page.find("option timestep=&quot;0.00384&quot;"), std::string::npos) << page;
+  EXPECT_NE(text_of(badge.string()).find("below 5.37 ms"), std::string::npos);
+  const Outcome on_output = substep("doctor pendulum --no-runs --html -");
+  EXPECT_TRUE(on_output.out.starts_with("<!doctype html>")) << on_output.out;
+  EXPECT_TRUE(on_output.out.ends_with("</html>\n")) << "and nothing else";
+}
+
 TEST(CommandLine, HelpHasExamples) {
   for (const char* command : {"", "run", "check", "hash", "generate"}) {
     const Outcome run = substep(std::string(command) + " --help");

@@ -57,7 +57,7 @@ async function shell(text) {
 
 /** Files that a command writes, by its flags. */
 const outputs = (text) => [...text.matchAll(
-  /(?:--(?:out|csv|json|html|states|joints|picture|ship)[ =]|> ?)([\w./-]+\.\w+)(?=\s|$|')/g)]
+  /(?:--(?:out|csv|json|html|badge|states|joints|picture|ship)[ =]|> ?)([\w./-]+\.\w+)(?=\s|$|')/g)]
   .map((match) => match[1]);
 
 async function runCommand({ code }) {

@@ -34,6 +34,19 @@ for (const light of all ? [false, true] : [false]) {
   });
 }
 
+for (const light of all ? [false, true] : [true]) {
+  test(`axe finds nothing serious on the page of the step doctor, ${light ? "light" : "dark"}`, async () => {
+    const page = await openPage(session, { path: "doctor.html", light });
+    await page.evaluate(axe);
+    assert.deepEqual(await findings(page), []);
+    await page.click('[data-example="arm"]');
+    await page.waitForFunction(() => document.querySelector("#details").textContent.includes("Remedies")
+      && document.querySelector("#working").textContent === "", null, { timeout: 30000 });
+    assert.deepEqual(await findings(page), []);
+    await leave(page);
+  });
+}
+
 // States of the page: in some the HTML has more content, in others it covers the canvas.
 const states = {
   "a run": (page) => call(page, "set", { mode: "adaptive" }),

@@ -152,7 +152,7 @@ export async function openPage(session, options = {}) {
   });
   await page.goto(`${session.address}${path}${fragment ? `#${fragment}` : ""}`);
   if (!own.before && path !== "files.json") {
-    await page.waitForFunction(() => window.substep ?? window.laboratories, null, { timeout: 60000 });
+    await page.waitForFunction(() => window.substep ?? window.laboratories ?? window.doctor, null, { timeout: 60000 });
   }
   return page;
 }

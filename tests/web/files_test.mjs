@@ -1,9 +1,12 @@
-// Files in and out: node tests/web/files_test.mjs [FOLDER OF THE BUILT PAGE]
+// Files in and out: node tests/web/files_test.mjs [FOLDER OF THE BUILT PAGE [SUBSTEP]]
+// With the command line, the page of the step doctor is compared with it.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { PNG } from "pngjs";
-import { appears, call, click, drawn, drop, open, openPage, pick, quiet, reports,
+import { examples } from "../../web/doctor_examples.mjs";
+import { appears, call, click, drawn, drop, leave, open, openPage, pick, pickUp, quiet, reports,
   save } from "./browser.mjs";
 import { variance } from "./pixels.mjs";
 
@@ -180,4 +183,163 @@ test("a video is recorded", async () => {
   assert.deepEqual([...bytes.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]); // EBML
   assert.ok(bytes.length > 10000, `${bytes.length} bytes`);
   quiet(page);
+});
+
+// ------------------------------------------------------------------------------------- the step doctor
+const program = process.argv[3];
+
+/** Drops a file on the page of the step doctor, and waits until it has said all. */
+async function consult(doctor, name, text) {
+  await doctor.dispatchEvent("body", "drop", { dataTransfer: await pickUp(doctor, name, text) });
+  await answered(doctor);
+}
+const answered = (doctor) => doctor.waitForFunction(() => document.querySelector("#working").textContent === ""
+  && (document.querySelector("#verdict").textContent !== "" || !document.querySelector("#trouble").hidden),
+null, { timeout: 30000 });
+
+/** What the page saves as JSON. */
+async function diagnosed(doctor) {
+  const [download] = await Promise.all([doctor.waitForEvent("download"), doctor.click("#save-json")]);
+  return JSON.parse(await contents(download));
+}
+
+/** What the command line says of the same. */
+function byCommandLine(text, ...flags) {
+  const { status, stdout, stderr } = spawnSync(program, ["doctor", "-", "--json", "-", ...flags],
+    { input: text, encoding: "utf8" });
+  assert.ok(status >= 0 && status <= 2, stderr);
+  return JSON.parse(stdout);
+}
+
+/** Takes frames of the run in the picture for so long. @returns its verdict */
+const verdictAfter = (doctor, seconds) => doctor.evaluate((time) => {
+  const { substep } = window;
+  substep.pause();
+  for (let i = 0; i < 1e4 && !substep.report().stopped && substep.report().time < time; ++i) substep.step(10);
+  return substep.report().verdict;
+}, seconds);
+
+const runsAt = (doctor, text) => doctor.waitForFunction((start) =>
+  document.querySelector("#run").textContent.startsWith(start), text, { timeout: 20000 });
+
+test("the doctor reads the step of a model, fails above it, and a link has the same numbers", async () => {
+  const doctor = await openPage(session, { path: "doctor.html" });
+  await doctor.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  const { file, text } = examples.crane;
+  await consult(doctor, file, text);
+  const first = await diagnosed(doctor);
+  const limit = first.largest_step;
+  assert.equal(first.step, 0.01, "the model's own");
+  assert.equal(first.verdict, "fails");
+  if (program) assert.deepEqual(first, byCommandLine(text, "--engine", "mujoco", "--step", "0.01"));
+  assert.match(await doctor.locator("#verdict").innerText(),
+    /^MuJoCo, integrator Euler, needs steps below 7\.\d+\sms, set by the geometric stiffness of joint_\d/);
+  // The picture rings the joint, and shows the run that fails above the limit.
+  await runsAt(doctor, "At 10 ms");
+  assert.deepEqual((await call(doctor, "report")).ringed, first.joints.map(({ name }) => name));
+  assert.match(first.joints[0].name, /^joint_\d$/);
+  assert.match(await verdictAfter(doctor, 1), /^fails at/);
+  await doctor.click("#below");
+  await runsAt(doctor, `At ${(0.9e3 * limit).toPrecision(3)} ms`);
+  await answered(doctor);
+  assert.equal((await diagnosed(doctor)).verdict, "holds narrowly");
+  assert.equal(await verdictAfter(doctor, 1), "holds");
+  // The slider, until it fails.
+  await doctor.focus("#step");
+  for (let i = 0; i < 10; ++i) await doctor.keyboard.press("ArrowRight");
+  await answered(doctor);
+  await doctor.waitForFunction(() => document.querySelector("#answer").className === "fails");
+  await answered(doctor);
+  const last = await diagnosed(doctor);
+  assert.ok(last.step > limit && last.step < 1.3 * limit, `${last.step}`);
+  assert.equal(last.runs.at(-1).holds, false);
+  assert.match(await verdictAfter(doctor, 1), /^fails at/);
+  assert.match(await doctor.locator("#details").innerText(), /Newton's method at this step\s+holds/);
+  const shorter = last.remedies.find((remedy) => remedy.step !== undefined && remedy.holds);
+  await save(doctor, "doctor");
+  await doctor.click("#copy-badge");
+  await doctor.waitForFunction(() => /copied/.test(document.querySelector("#shared").textContent));
+  const badge = await doctor.evaluate(() => navigator.clipboard.readText());
+  assert.match(badge, /^\[!\[MuJoCo[^\]]*\]\(data:image\/svg\+xml;base64,[A-Za-z0-9+/=]+\)\]\(http[^)]*doctor\.html#[^)]*model64=[^)]*\)\n$/);
+  await doctor.click("#copy-link");
+  await doctor.waitForFunction(() => document.querySelector("#shared").textContent === "Link copied");
+  const link = await doctor.evaluate(() => navigator.clipboard.readText());
+  await leave(doctor);
+  const again = await openPage(session, { path: "doctor.html", fragment: link.split("#")[1] });
+  await answered(again);
+  assert.deepEqual(await diagnosed(again), last);
+  assert.equal(await again.locator("#engine").inputValue(), "mujoco");
+  // A remedy, applied.
+  await again.click(`button[aria-label="Apply ${shorter.text}"]`);
+  await answered(again);
+  const cured = await diagnosed(again);
+  assert.equal(cured.verdict, "holds");
+  assert.ok(Math.abs(cured.step / shorter.step - 1) < 1e-5, `${cured.step}`);
+  await leave(again);
+});
+
+test("the doctor names drives, and what was left out with its line", async () => {
+  const doctor = await openPage(session, { path: "doctor.html", width: 390, height: 844, light: true });
+  await doctor.click('[data-example="arm"]');
+  await answered(doctor);
+  const diagnosis = await diagnosed(doctor);
+  assert.equal(diagnosis.by_drive, true);
+  if (program) {
+    assert.deepEqual(diagnosis, byCommandLine(examples.arm.text, "--engine", "mujoco", "--step", "0.002"));
+  }
+  assert.match(await doctor.locator("#details").innerText(), /wrist/);
+  assert.match(await doctor.locator("#caveat").innerText(), /drives of this laboratory are implicit/);
+  assert.match(await doctor.locator("details summary").innerText(), /1 left out/);
+  await doctor.click("details summary");
+  assert.match(await doctor.locator("details").innerText(), /arm\.xml:2/);
+  // A remedy that changes the model, applied.
+  const [{ text: armature }] = diagnosis.remedies.filter((remedy) => remedy.changes_model);
+  await doctor.click(`button[aria-label="Apply ${armature}"]`);
+  await doctor.waitForFunction((what) => document.querySelector("#patient").textContent.endsWith(what), armature);
+  await answered(doctor);
+  const cured = await diagnosed(doctor);
+  assert.equal(cured.verdict, "holds");
+  assert.ok(cured.largest_step >= 1.4 * diagnosis.step, `${cured.largest_step}`);
+  assert.match(doctor.url(), /&scene64=/);
+  // Another engine, which has no limit for drives.
+  await doctor.selectOption("#engine", "drake");
+  await answered(doctor);
+  await doctor.waitForFunction(() => /Drake/.test(document.querySelector("#verdict").textContent));
+  assert.match(await doctor.locator("#verdict").innerText(), /^No limit was found for Drake/);
+  assert.equal(await doctor.evaluate(() => document.documentElement.scrollWidth), 390, "no sideways scrolling");
+  await save(doctor, "doctor-phone");
+  await leave(doctor);
+});
+
+test("the doctor refuses what is no model, and shows hostile names as text", async () => {
+  const doctor = await openPage(session, { path: "doctor.html",
+    fragment: "engine=none&step=9&warp=1&model64=AAAA" });
+  await doctor.waitForFunction(() => !document.querySelector("#trouble").hidden);
+  assert.match(await doctor.locator("#trouble").innerText(),
+    /step: must be from 1e-05[^]*warp: is unknown[^]*model64[^]*engine: none is called none/);
+  for (const [name, bytes, message] of [
+    ["empty.xml", "", /empty\.xml was not read/],
+    ["broken.xml", "<mujoco><worldbody></mujoco>", /broken\.xml was not read[^]*broken\.xml:1/],
+    ["other.xml", "<html></html>", /neither <mujoco>/],
+    ["picture.png", [0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10, 0], /picture\.png was not read[^]*not text/],
+    ["<img src=x>.json", "{", /<img src=x>\.json was not read/],
+  ]) {
+    await consult(doctor, name, bytes);
+    assert.match(await doctor.locator("#trouble").innerText(), message);
+    assert.equal(await doctor.locator("#trouble img").count(), 0);
+  }
+  const name = '&lt;img src=x onerror="window.harmed=1"&gt;&amp;,`'.replaceAll('"', "&quot;");
+  await consult(doctor, "<script>window.harmed=2</script>.xml", examples.arm.text
+    .replaceAll("wrist", name).replaceAll("hand", `&lt;b&gt;${name}`).replace("arm_on", `&lt;/title&gt;${name}`));
+  assert.ok(await doctor.locator("#trouble").isHidden());
+  assert.match(await doctor.locator("#verdict").innerText(), /<img src=x onerror="window\.harmed=1">&/);
+  assert.equal(await doctor.locator(":is(#intake, #answer, #details) :is(img, b, script)").count(), 0);
+  const [download] = await Promise.all([doctor.waitForEvent("download"), doctor.click("#save-html")]);
+  const report = await doctor.context().newPage();
+  await report.setContent((await contents(download)).toString());
+  assert.match(await report.locator(".answer").innerText(), /needs steps below/);
+  assert.equal(await report.locator("img, b, script").count(), 0);
+  await report.close();
+  assert.equal(await doctor.evaluate(() => window.harmed), undefined);
+  await leave(doctor);
 });

@@ -30,6 +30,37 @@ TEST(Link, RoundTripKeepsTheExperiment) {
   EXPECT_TRUE(h.app->trouble.title.empty());
 }
 
+TEST(Link, RingsJointsByTheirNames) {
+  Headless h;
+  ASSERT_EQ(h.app->set("scene", "swinging_box"), "");
+  const auto& joints = h.app->session.scene().joints;
+  const std::string first = base(joints[3]).name;
+  const std::string second = base(joints[7]).name;
+  EXPECT_EQ(h.app->set("ring", first + ',' + second), "");
+  EXPECT_EQ(h.app->desk.ringed, (std::vector<std::string>{first, second}));
+  h.frames(1);
+  EXPECT_EQ(h.app->set("ring", first + ",nowhere"), "no joint is called 'nowhere'");
+  EXPECT_EQ(h.app->desk.ringed.size(), 2U) << "unchanged";
+  EXPECT_EQ(h.app->set("ring", ""), "no joint is called ''");
+  h.app->reset();
+  EXPECT_EQ(h.app->desk.ringed.size(), 2U) << "the same joints";
+  EXPECT_EQ(h.app->set("ring", "none"), "");
+  EXPECT_TRUE(h.app->desk.ringed.empty());
+  EXPECT_EQ(h.app->set("ring", second), "");
+  ASSERT_EQ(h.app->set("scene", "bridge"), "");
+  EXPECT_TRUE(h.app->desk.ringed.empty()) << "another scene, other joints";
+}
+
+TEST(Link, RingsAJointWithACommaInItsName) {
+  Headless h;
+  SceneBuilder builder("comma");
+  const int ball = builder.add_body(Sphere{0.1}, 1.0, {0.0, -1.0, 0.0});
+  builder.joint(builder.add_ball_joint(ball, kWorld, Vec3::Zero())).name = "left,right";
+  h.app->open_text(write_scene(*builder.build()), "comma.json");
+  EXPECT_EQ(h.app->set("ring", "left,right"), "");
+  EXPECT_EQ(h.app->desk.ringed, std::vector<std::string>{"left,right"});
+}
+
 // `forces` is both a switch of the view and a setting.
 TEST(Link, OpensEverySetting) {
   Headless h;

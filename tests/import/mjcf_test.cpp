@@ -40,6 +40,18 @@ TEST(Mjcf, BecomesAValidSceneWithYUp) {
   EXPECT_EQ(write_scene(*again.scene), write_scene(scene));
 }
 
+TEST(Mjcf, ReportsTheStepAndTheIntegratorOfItsEngine) {
+  const std::string body = "<body><joint/><geom size='0.1' pos='1 0 0'/></body>";
+  const ImportReport silent = imported(world(body)).report;
+  EXPECT_EQ(silent.timestep, 0.002) << "MuJoCo's default";
+  EXPECT_EQ(silent.integrator, "Euler");
+  const ImportReport own =
+      imported(world(body, "<option timestep='5e-4'/><option integrator='RK4'/>")).report;
+  EXPECT_EQ(own.timestep, 5e-4);
+  EXPECT_EQ(own.integrator, "RK4");
+  EXPECT_EQ(imported(world(body, "<option timestep='soon'/>")).report.timestep, 0.002);
+}
+
 TEST(Mjcf, MergesBodiesWithoutJointsIntoTheirParents) {
   const auto result = imported(world(
       "<body name='a'><freejoint/><geom type='box' size='0.1 0.1 0.1' mass='1'/>"

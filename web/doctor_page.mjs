@@ -13,6 +13,7 @@ const shortest = 1e-5; // of the slider [s]
 const perDecade = 100; // its stops
 const most = 1; // step that may be asked [s]
 const reading = "Reading the step …";
+const mostBodies = 500; // of a run that is shown: the page waits while it is loaded
 const settling = 150; // of the slider before its run begins [ms]
 const engineOf = { Euler: "mujoco", RK4: "mujoco", implicit: "mujoco-implicitfast",
   implicitfast: "mujoco-implicitfast", discrete: "mujoco-discrete" };
@@ -107,6 +108,14 @@ async function openLaboratory(scene) {
 /** Starts the run with the step, in the laboratory. */
 async function run() {
   const turn = ++state.runs;
+  const count = state.base.bodies.length;
+  at("laboratory").hidden = count > mostBodies;
+  if (count > mostBodies) {
+    state.lab?.pause();
+    at("run").textContent = `Not shown: it has ${count} bodies, more than ${mostBodies}`;
+    at("run").className = "";
+    return;
+  }
   const scene = { ...state.base, frame: state.step };
   state.opening ??= openLaboratory(scene);
   const lab = await state.opening;

@@ -34,7 +34,9 @@ export function showAnswer(section, diagnosis, step) {
     put(reason, "");
     return;
   }
-  const { largest_step: limit, summary } = diagnosis;
+  const { largest_step: limit, not_analysed: left } = diagnosis;
+  const summary = limit !== null || left === 0 ? diagnosis.summary
+    : `${left} bodies are in groups that are too large for the analysis; the others have no limit`;
   const isCurrent = diagnosis.step === step;
   const ratio = limit === null ? 0 : step / limit;
   const word = isCurrent ? diagnosis.verdict : ratio > 1 ? "fails" : ratio * 1.4 > 1 ? "holds narrowly" : "holds";

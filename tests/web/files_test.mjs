@@ -341,5 +341,11 @@ test("the doctor refuses what is no model, and shows hostile names as text", asy
   assert.equal(await report.locator("img, b, script").count(), 0);
   await report.close();
   assert.equal(await doctor.evaluate(() => window.harmed), undefined);
+  // A model of many bodies: the page answers without their picture.
+  const bodies = Array.from({ length: 501 }, (_, i) => ({ name: `b${i}`, mass: 1, position: [i, 0, 0],
+    shape: { type: "sphere", radius: 0.1 } }));
+  await doctor.dispatchEvent("body", "drop", { dataTransfer: await pickUp(doctor, "many.json",
+    JSON.stringify({ format: "substep-scene", version: 2, name: "many", title: "Many", bodies })) });
+  await doctor.waitForFunction(() => /^Not shown: it has 501 bodies/.test(document.querySelector("#run").textContent));
   await leave(doctor);
 });

@@ -222,8 +222,9 @@ void frame(App& app, double wall_dt, bool whole) {
   // The address is unchanged until the laboratory is shown, so that reloading shows the same.
   if (app.host.link_changed && !app.introduction.open()) {
     std::string link = app.link();
-    if (link != app.last_link) {
+    if (link != app.last_link || app.plain_scene != app.last_linked) {
       app.last_link = std::move(link);
+      app.last_linked = app.plain_scene;
       app.host.link_changed(app.last_link);
     }
   }

@@ -265,6 +265,7 @@ const char* substep_report() {
       {"alpha", set.alpha},
       {"playing", s.playing()},
       {"stopped", s.stopped()},
+      {"typing", app().desk.scene_text.active()},  // into the scene's text
       {"frame", s.state().frame},
       {"time", s.state().time},
       {"substeps_left", s.substeps_left()},

@@ -451,7 +451,13 @@ TEST(SceneEditor, OneSceneOfOnesOwnHoldsTheEdits) {
 TEST(SceneEditor, ItsLinkAndFileReproduceTheRun) {
   Headless h;
   open_editor(h, "swinging_box");
-  replace_passage(h, "\"mass\": 1000", "\"mass\": 640");
+  replace_passage(h, "\"mass\": 1000", "\"mass\": 500");
+  int told = 0;
+  h.app->host.link_changed = [&](const std::string&) { ++told; };
+  h.frames(3);
+  told = 0;
+  replace_passage(h, "\"mass\": 500", "\"mass\": 640");
+  EXPECT_EQ(told, 1) << "the scene has the same name, but another text";
   for (int i = 0; i < 40; ++i) h.app->session.step();
   const std::uint64_t hash = h.app->session.hash();
   // The page packs the text of this scene into the link.

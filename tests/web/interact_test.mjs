@@ -174,6 +174,14 @@ test("touches rotate, zoom and scroll", async () => {
   await save(phone, "phone-fingers", now);
   assert.ok(difference(part(before, lower), part(now, lower)) > 0.03, "the panel did not scroll");
   assert.deepEqual(await phone.evaluate(() => [window.scrollX, window.scrollY]), [0, 0]);
+  // A tap on the scene's text opens the HTML field, for the keyboard of the screen.
+  await call(phone, "set", { panel: "editor" });
+  await drawn(phone);
+  const field = place(await find(phone, "scene text"));
+  await gesture([field, field]);
+  await phone.waitForFunction(() => document.activeElement.name === "source");
+  assert.ok((await phone.locator("textarea[name=source]").inputValue()).includes("heavy_stack"));
+  await save(phone, "phone-text");
   await leave(phone);
 });
 

@@ -102,6 +102,7 @@ export function makeTwin(section, calls) {
     editor.hidden = false;
     text.setAttribute("aria-expanded", "true");
     fillSource();
+    source.setSelectionRange(0, 0); // else the end is in sight
     source.focus();
     makeRoom();
   }

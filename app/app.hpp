@@ -47,6 +47,7 @@ struct App : Lab, Viewport {
   double own_time = 0.0;           // simulation time of the last frame [s]
   QualityGovernor quality;
   std::string last_link;
+  std::shared_ptr<const Scene> last_linked;  // the scene of that link: another may have its name
   std::string last_arrangement;
   unsigned last_event = 0;  // last Dear ImGui event that was rescaled
 };

@@ -185,6 +185,8 @@ void frame(App& app, double wall_dt, bool whole) {
   if (!app.session.playing()) app.try_remedies(slice);
   app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   app.notice.left -= wall_dt;
+  app.editor.open = app.desk.tab == Tab::kText;
+  app.editor.follow(app, wall_dt);
 
   update_look(app);
   app.renderer->begin_frame();
@@ -197,7 +199,7 @@ void frame(App& app, double wall_dt, bool whole) {
     app.watch_stiffness(app.desk.view.tint);
   }
   app.compare.follow(app.session);
-  app.view.follow(app.session);
+  app.view.follow(app.session, std::exchange(app.keeps_view, false));
   follow_failure(app);
   app.view.camera.update(wall_dt, app.desk.reduced_motion);
   ui::draw_window(app);
@@ -220,8 +222,9 @@ void frame(App& app, double wall_dt, bool whole) {
   // The address is unchanged until the laboratory is shown, so that reloading shows the same.
   if (app.host.link_changed && !app.introduction.open()) {
     std::string link = app.link();
-    if (link != app.last_link) {
+    if (link != app.last_link || app.plain_scene != app.last_linked) {
       app.last_link = std::move(link);
+      app.last_linked = app.plain_scene;
       app.host.link_changed(app.last_link);
     }
   }

@@ -14,6 +14,7 @@ const isScene = (part) => part.startsWith("scene=");
 export function makeAddress(wasm, host, readScene, keep, signal) {
   const packed = { text: "", letters: "" }; // the last embedded scene
   let written = ""; // the last fragment written or read here
+  let writtenScene = ""; // its scene, as sceneOf() has it
   let before = ""; // the last fragment of the previous scene
   let timer = 0;
 
@@ -58,17 +59,24 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     return answer;
   }
 
+  /** The scene of a fragment; one of the user's own by its name, because its text may be edited. */
+  function sceneOf(text) {
+    const part = partsOf(text).find((one) => /^scene(64)?=/.test(one));
+    return part?.startsWith("scene64=") ? `scene64 ${JSON.parse(wasm.report()).scene}` : part;
+  }
+
   async function write() {
     const here = location.hash;
     const fragment = `#${await link()}`;
     if (location.hash !== here) return; // the user went elsewhere while a scene was packed
     document.title = `${JSON.parse(wasm.report()).title} · substep`;
     if (fragment === written) return;
-    // Going back returns to the previous scene, without the settings in between.
-    const sceneOf = (text) => partsOf(text).find((part) => /^scene(64)?=/.test(part));
-    const anew = written !== "" && sceneOf(fragment) !== sceneOf(written);
+    // Going back returns to the previous scene, without the settings and the edits in between.
+    const scene = sceneOf(fragment);
+    const anew = written !== "" && scene !== writtenScene;
     if (anew) before = written;
     written = fragment;
+    writtenScene = scene;
     history[anew ? "pushState" : "replaceState"](null, "", fragment);
   }
 
@@ -76,6 +84,7 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     if (written !== "") before = written;
     written = location.hash; // later versions replace it
     if (written.length > 1) await open(written);
+    writtenScene = sceneOf(written);
   }
 
   host.linkChanged = () => {

@@ -47,6 +47,23 @@ json outcome(const std::vector<Problem>& problems) {
   return {{"ok", problems.empty()}, {"problems", std::move(list)}};
 }
 
+/// The scene as text, and what its reader finds in it.
+json scene_text() {
+  const substep::SceneEditor& editor = app().editor;
+  json problems = json::array();
+  if (!editor.refused.empty()) problems.push_back({{"pointer", ""}, {"message", editor.refused}});
+  for (const substep::PlacedProblem& placed : editor.text().problems()) {
+    problems.push_back({{"line", placed.place.line},
+                        {"column", placed.place.column},
+                        {"pointer", placed.problem.pointer},
+                        {"message", placed.problem.message}});
+  }
+  return {{"ok", problems.empty()},
+          {"text", editor.text().text()},
+          {"runs", editor.text().checked() && !editor.text().changed()},
+          {"problems", std::move(problems)}};
+}
+
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 /// Of the parsed scene, or of the model. @param from name of the file
@@ -190,6 +207,17 @@ const char* substep_saved_scene() {
   return keep_text(substep::write_scene(app().session.as_scene()));
 }
 
+const char* substep_scene_text() {
+  app().editor.show_run_if_unchanged(app());
+  return keep(scene_text());
+}
+
+const char* substep_edit_text(const char* text) {
+  app().introduction.leave(app());
+  app().editor.replace(app(), text);
+  return keep(scene_text());
+}
+
 const char* substep_history() {
   const substep::Session& s = app().session;
   std::vector<substep::Channel> channels;
@@ -237,6 +265,7 @@ const char* substep_report() {
       {"alpha", set.alpha},
       {"playing", s.playing()},
       {"stopped", s.stopped()},
+      {"typing", app().desk.scene_text.active()},  // into the scene's text
       {"frame", s.state().frame},
       {"time", s.state().time},
       {"substeps_left", s.substeps_left()},

@@ -66,6 +66,13 @@ SUBSTEP_EXPORTED const char* substep_own_scene();
 /// The current state of the run as a scene file.
 SUBSTEP_EXPORTED const char* substep_saved_scene();
 
+/// The scene as text, as the editor has it: {text, runs, problems: [{line, column, pointer,
+/// message}]}; without the editor that of the run.
+SUBSTEP_EXPORTED const char* substep_scene_text();
+
+/// Replaces it, as an edit that can be undone, and runs it if it is valid. @return the same
+SUBSTEP_EXPORTED const char* substep_edit_text(const char* text);
+
 /// The samples of the plots as CSV, one line per frame.
 SUBSTEP_EXPORTED const char* substep_history();
 

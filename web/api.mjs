@@ -60,6 +60,10 @@ function makeChanging(wasm, report) {
       wasm.goTo(time);
       return done();
     },
+    editText(text) {
+      if (!isText(text)) return wrong("text", mustBe("a string without NUL", text));
+      return text.length > largest ? tooLong("text") : parse(wasm.editText(text));
+    },
     play() {
       wasm.play(1);
       return right();
@@ -87,6 +91,7 @@ const makeLooking = (wasm, report) => ({
   command: () => wasm.command(),
   history: () => wasm.history(),
   saved: () => wasm.savedScene(),
+  sceneText: () => parse(wasm.sceneText()),
 });
 
 /** Calls that return a promise, which may be rejected. */

@@ -17,7 +17,7 @@ struct NamedKey {
   std::string_view name;  // KeyboardEvent.key
   ImGuiKey key;
 };
-constexpr std::array<NamedKey, 18> kKeys{{{"Tab", ImGuiKey_Tab},
+constexpr std::array<NamedKey, 20> kKeys{{{"Tab", ImGuiKey_Tab},
                                           {"ArrowLeft", ImGuiKey_LeftArrow},
                                           {"ArrowRight", ImGuiKey_RightArrow},
                                           {"ArrowUp", ImGuiKey_UpArrow},
@@ -34,7 +34,9 @@ constexpr std::array<NamedKey, 18> kKeys{{{"Tab", ImGuiKey_Tab},
                                           {"a", ImGuiKey_A},
                                           {"c", ImGuiKey_C},
                                           {"v", ImGuiKey_V},
-                                          {"x", ImGuiKey_X}}};
+                                          {"x", ImGuiKey_X},
+                                          {"y", ImGuiKey_Y},
+                                          {"z", ImGuiKey_Z}}};
 
 }  // namespace
 

@@ -70,7 +70,7 @@ const exported = {
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", busy: "n", reset: "v",
   open_link: "ss", read: "vs", read_some: "n", open_read: "ss", open_read_link: "ss", start_opened: "v",
   introduce: "v", tour: "s", tour_in_page: "vn", dark: "n",
-  link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
+  link: "s", command: "s", own_scene: "s", saved_scene: "s", scene_text: "s", edit_text: "ss", settings: "s", history: "s",
   trouble: "vsss", tell: "vs", recording: "vn", hash: "s", report: "s", scenes: "s",
   widgets: "s", memory: "s",
 };

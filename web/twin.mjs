@@ -1,6 +1,7 @@
 // The laboratory in plain HTML for screen readers and keyboards: its state, announced when
 // important, and its main controls. The controls become visible on keyboard focus.
 
+const touched = 250; // after a touch, until the application knows what it was for [ms]
 const period = 1000; // between updates; more frequent ones would distract [ms]
 
 const fields = { scene: "Scene", method: "Method", state: "State",
@@ -19,6 +20,13 @@ const markup = (id) => `
   <button type="button" name="play">Play</button>
   <button type="button" name="step">One frame</button>
   <button type="button" name="reset">Reset</button>
+  <button type="button" name="text" aria-expanded="false">Edit as text</button>
+  <div class="substep-source" hidden>
+    <label for="${id}-source">Scene as text</label>
+    <textarea id="${id}-source" name="source" rows="8" spellcheck="false"></textarea>
+    <button type="button" name="apply">Apply text</button>
+    <ul></ul>
+  </div>
 </form>
 <dl>${Object.entries(fields).map(([name, title]) =>
     `<dt>${title}</dt><dd data-field="${name}"></dd>`).join("")}</dl>
@@ -32,7 +40,10 @@ export function makeTwin(section, calls) {
   section.innerHTML = markup(section.id);
   const form = section.querySelector("form");
   const live = section.querySelector("[aria-live]");
-  const { enter, tour, scene, mode, solver, alpha, play, step, reset } = form.elements;
+  const { enter, tour, scene, mode, solver, alpha, play, step, reset, text, source, apply }
+    = form.elements;
+  const editor = section.querySelector(".substep-source");
+  const faults = editor.querySelector("ul");
   const introduction = section.querySelector("[data-introduction]");
   const shown = Object.fromEntries(
     [...section.querySelectorAll("[data-field]")].map((e) => [e.dataset.field, e]));
@@ -54,6 +65,7 @@ export function makeTwin(section, calls) {
 
   form.addEventListener("submit", (event) => event.preventDefault());
   form.addEventListener("change", ({ target }) => {
+    if (target === source) return; // it has its own button
     const { problems } = calls.set({ [target.name]: target.value });
     if (problems.length > 0) live.textContent = `${target.name}: ${problems[0].message}`;
     update();
@@ -77,6 +89,46 @@ export function makeTwin(section, calls) {
   reset.addEventListener("click", () => {
     calls.reset();
     update();
+  });
+
+  // The scene as text: that of the run, unless it has changes here.
+  let filled = ""; // with what the field was filled
+  function fillSource() {
+    if (editor.hidden || source.value !== filled) return;
+    const { text: now } = calls.sceneText();
+    if (now !== filled) source.value = filled = now;
+  }
+  function openText() {
+    editor.hidden = false;
+    text.setAttribute("aria-expanded", "true");
+    fillSource();
+    source.setSelectionRange(0, 0); // else the end is in sight
+    source.focus();
+    makeRoom();
+  }
+  text.addEventListener("click", () => {
+    if (editor.hidden) return openText();
+    editor.hidden = true;
+    text.setAttribute("aria-expanded", "false");
+    makeRoom();
+  });
+  apply.addEventListener("click", () => {
+    const { problems } = calls.editText(source.value);
+    if (problems.length === 0) filled = source.value;
+    faults.replaceChildren(...problems.slice(0, 100).map(({ line, pointer, message }) => {
+      const place = [line && `Line ${line}`, pointer].filter(Boolean).join(", ");
+      return Object.assign(document.createElement("li"),
+        { textContent: place ? `${place}: ${message}` : message });
+    }));
+    live.textContent = problems.length === 0 ? "The text runs"
+      : `${problems.length} problems. ${faults.firstChild.textContent}`;
+    update();
+    makeRoom();
+  });
+  // A touch screen shows its keyboard for an HTML field only.
+  host.querySelector("canvas").addEventListener("pointerup", ({ pointerType }) => {
+    if (pointerType !== "touch") return;
+    setTimeout(() => { if (calls.report().typing) openText(); }, touched);
   });
 
   /** The first screen as text. @returns the part to announce once */
@@ -117,6 +169,7 @@ export function makeTwin(section, calls) {
     const now = scenes.map((s) => s.name).join();
     if (now !== names) fill(scene, scenes.map((s) => [s.name, s.title]));
     names = now;
+    fillSource();
     put(scene, r.scene);
     put(mode, r.mode);
     put(solver, r.solver);

@@ -34,6 +34,7 @@ Lab::Lab(Library shipped) : library(std::move(shipped)), session(library.scenes(
 void Lab::run(std::shared_ptr<const Scene> scene) {
   compare.close();  // it belonged to the other scene
   ++run_count;
+  keeps_view = false;
   plain_scene = scene;
   load = 1.0;
   seed = 0;
@@ -134,8 +135,17 @@ void Lab::start_opened() {
 std::shared_ptr<const Scene> Lab::add_own(const Scene& scene) {
   auto added = library.add(scene);
   own.add(added);
-  if (host.remember) host.remember(kOwnScenes, own.text());
+  store_own();
   return added;
+}
+
+void Lab::remove_own(const std::string& name) {
+  library.remove_own(name);
+  own.remove(name);
+}
+
+void Lab::store_own() {
+  if (host.remember) host.remember(kOwnScenes, own.text());
 }
 
 void Lab::recall_scenes() {

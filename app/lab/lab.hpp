@@ -16,6 +16,7 @@
 #include "app/lab/library.hpp"
 #include "app/lab/opened_text.hpp"
 #include "app/lab/own_scenes.hpp"
+#include "app/lab/scene_editor.hpp"
 #include "app/lab/session.hpp"
 #include "core/io/scene_reader.hpp"
 #include "core/lab/remedy.hpp"
@@ -49,6 +50,10 @@ struct Lab {
   void start_opened();
   /// Adds a scene to the user's own, and stores it. @return the scene in the library
   std::shared_ptr<const Scene> add_own(const Scene& scene);
+  /// Removes one of the user's own scenes from the library. Call store_own() afterwards.
+  void remove_own(const std::string& name);
+  /// Stores the user's own scenes for later visits.
+  void store_own();
   /// Restores the user's own scenes of earlier visits. Call once, after the host is set.
   void recall_scenes();
   /// Saves the run in its current state as a scene file.
@@ -91,7 +96,7 @@ struct Lab {
   /// Whether anything runs without input: playback, a sweep, a search.
   [[nodiscard]] bool busy() const {
     return session.playing() || seeking() || accuracy.busy() || find_n.busy() ||
-           compare.behind(session) || trying_remedies();
+           compare.behind(session) || trying_remedies() || editor.waiting();
   }
 
   /// Largest mass of a moving body in the scene as loaded [kg]; the load multiplies it.
@@ -126,6 +131,7 @@ struct Lab {
 
   Library library;
   OwnScenes own;
+  SceneEditor editor;
   Session session;
   Compare compare;
   ExamGhost exam;  // of scenes with a known answer
@@ -142,6 +148,7 @@ struct Lab {
   int seed = 0;
   double pause_at = 0.0;        // end of an experiment, 0 if none [s]
   int run_count = 0;            // resets and loads
+  bool keeps_view = false;      // the scene that was loaded is seen from where the last one was
   bool hold_at_failure = true;  // a failed run pauses, or freezes if it is being compared
   /// Called after a restart. @param loaded whether another scene was loaded
   std::function<void(bool loaded)> restarted;

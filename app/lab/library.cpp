@@ -97,6 +97,10 @@ std::shared_ptr<const Scene> Library::add(const Scene& scene) {
   return own;
 }
 
+void Library::remove_own(const std::string& name) {
+  std::erase_if(scenes_, [&](const auto& scene) { return is_own(*scene) && scene->name == name; });
+}
+
 bool is_own(const Scene& scene) { return scene.group == kOwnGroup; }
 
 std::string group_title(std::string_view group) {

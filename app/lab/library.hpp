@@ -28,6 +28,8 @@ class Library {
   /// renamed if a shipped scene has its name.
   /// @return the scene in the library
   std::shared_ptr<const Scene> add(const Scene& scene);
+  /// Removes a user's scene, if there is one of this name.
+  void remove_own(const std::string& name);
 
  private:
   void sort();

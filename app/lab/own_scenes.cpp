@@ -12,6 +12,10 @@ void OwnScenes::add(const std::shared_ptr<const Scene>& scene) {
   if (scenes_.size() > kMost) scenes_.pop_back();
 }
 
+void OwnScenes::remove(const std::string& name) {
+  std::erase_if(scenes_, [&](const auto& scene) { return scene->name == name; });
+}
+
 bool OwnScenes::may_keep(const Scene& scene) {
   constexpr std::size_t kShortest = 70;  // minimum text of a body or a joint [bytes]
   return kShortest * (scene.bodies.size() + scene.joints.size()) <= kMaxText;

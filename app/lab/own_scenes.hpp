@@ -19,6 +19,7 @@ class OwnScenes {
 
   /// Moves a scene to the front; replaces an older one of its name.
   void add(const std::shared_ptr<const Scene>& scene);
+  void remove(const std::string& name);
 
   /// Whether a scene is small enough to store, by its numbers of bodies and joints; serialising a
   /// large one is slow.

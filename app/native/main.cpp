@@ -94,6 +94,8 @@ void listen(GLFWwindow* handle) {
 
 // Applies the command line. @return error message, or ""
 std::string apply(const Options& options, App& app) {
+  app.desk.dark = !options.light;  // a link may choose another theme
+  app.desk.panels = !options.bare;
   if (!options.scene.empty() && !app.open(options.scene)) {
     SceneResult result = read_scene_file(options.scene);
     if (!result.scene) {
@@ -112,8 +114,6 @@ std::string apply(const Options& options, App& app) {
   }
   if (!options.open.empty()) app.open_file(options.open);
   if (!options.link.empty()) app.open_link(options.link);
-  app.desk.dark = !options.light;
-  app.desk.panels = !options.bare;
   if (!app.held()) app.session.play();
   const bool plain = options.scene.empty() && options.settings.empty() && options.open.empty() &&
                      options.link.empty() && !options.bare;

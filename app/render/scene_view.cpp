@@ -162,17 +162,26 @@ void add_range(std::vector<Instance>& boxes, const AngleLimit& limit, const Vec3
 
 }  // namespace
 
-void SceneView::follow(const Session& session) {
+void SceneView::follow(const Session& session, bool keep) {
   if (session.generation() != generation_) {
     generation_ = session.generation();
-    place(session.scene(), session.poses());
+    if (keep) {
+      note_start(session.scene(), session.poses());
+    } else {
+      place(session.scene(), session.poses());
+    }
   }
   follow_motion(session);
 }
 
 void SceneView::place(const Scene& scene, const Poses& poses) {
-  half_width_ = width_to_show(scene, poses);
+  note_start(scene, poses);
   camera.place(scene.camera, half_width_);
+}
+
+// What the camera follows and shows, without moving it.
+void SceneView::note_start(const Scene& scene, const Poses& poses) {
+  half_width_ = width_to_show(scene, poses);
   start_ = subject_of(scene, poses).value_or(scene.camera.target) - scene.camera.target;
   carried_.setZero();
   home_ = ball_around(scene, poses, nullptr);

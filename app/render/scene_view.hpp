@@ -63,7 +63,8 @@ class SceneView {
   OrbitCamera camera;
 
   /// Resets the camera for a new scene, and follows a motion that leaves its picture.
-  void follow(const Session& session);
+  /// @param keep leaves the camera where it is for a new scene, as after an edit of its text
+  void follow(const Session& session, bool keep = false);
   /// Places the camera for a scene. @param poses its start
   void place(const Scene& scene, const Poses& poses);
   void frame_all(const Session& session);
@@ -76,6 +77,7 @@ class SceneView {
   static void add_ghost(const Scene& scene, const Poses& poses, const Color& color, Picture& out);
 
  private:
+  void note_start(const Scene& scene, const Poses& poses);
   void follow_motion(const Session& session);
   static void add_bodies(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
                          Picture& out);

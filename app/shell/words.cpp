@@ -49,12 +49,13 @@ std::string choose(std::string_view value, std::array<std::string_view, 2> words
 }
 
 std::string choose_panel(std::string_view value, Desk& desk) {
-  static constexpr std::array<std::string_view, 5> kNames{"controls", "plots", "why", "compare",
-                                                          "accuracy"};
+  static constexpr std::array<std::string_view, 6> kNames{"controls", "plots",    "why",
+                                                          "compare",  "accuracy", "editor"};
   const auto* const found = std::find(kNames.begin(), kNames.end(), value);
   if (found == kNames.end()) {
-    return must_be("controls, plots, why, compare or accuracy", value);
+    return must_be("controls, plots, why, compare, accuracy or editor", value);
   }
+  if (desk.tab != Tab::kText) desk.tab_before_text = desk.tab;
   desk.tab = static_cast<Tab>(found - kNames.begin());
   const bool lab_only = desk.tab == Tab::kCompare || desk.tab == Tab::kAccuracy;
   if (lab_only) desk.level = DeskLevel::kLab;

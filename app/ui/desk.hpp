@@ -7,14 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "app/lab/scene_text.hpp"
 #include "app/render/scene_view.hpp"
 #include "app/ui/plot.hpp"
+#include "app/ui/text_field.hpp"
 #include "app/ui/thumbnails.hpp"
 
 namespace substep {
 
 /// The open panel: of all on a phone, else of the right ones, with the controls on the left.
-enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare, kAccuracy };
+/// The text of the scene has no tab: it takes the place of all.
+enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare, kAccuracy, kText };
 
 /// Amount of controls shown.
 enum class DeskLevel : unsigned char {
@@ -82,13 +85,17 @@ struct Desk {
   bool recording = false;  // a video, see Host::record
   bool reduced_motion = false;
   Tab tab = Tab::kControls;
+  Tab tab_before_text = Tab::kControls;  // to return to
   PanelSide left;
   PanelSide right;
-  double scale = 1.0;         // of the interface without the picture, 0.8 to 1.5
-  int tour = -1;              // step of the guided tour, or -1
-  float tour_height = 0.0F;   // of its card; the picture leaves room for it
-  bool tour_in_page = false;  // the page shows its text beside the canvas
-  bool tour_hint = false;     // the tour was neither taken nor dismissed
+  float text_width = 0.0F;  // of the scene's text, as PanelSide::width
+  ui::TextField scene_text{SceneText::kMost};
+  int scene_text_version = -1;  // SceneEditor::version() that it shows
+  double scale = 1.0;           // of the interface without the picture, 0.8 to 1.5
+  int tour = -1;                // step of the guided tour, or -1
+  float tour_height = 0.0F;     // of its card; the picture leaves room for it
+  bool tour_in_page = false;    // the page shows its text beside the canvas
+  bool tour_hint = false;       // the tour was neither taken nor dismissed
   ViewOptions view;
   int selected = -1;                // body, or -1
   std::vector<std::string> ringed;  // joints, by their names

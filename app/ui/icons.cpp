@@ -182,6 +182,15 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
       pen.lines({{-0.14F, -0.36F}, {-0.38F, -0.12F}, {-0.14F, 0.12F}});
       pen.lines({{-0.36F, -0.12F}, {0.34F, -0.12F}, {0.34F, 0.34F}, {-0.1F, 0.34F}});
       break;
+    case Icon::kRedo:
+      pen.lines({{0.14F, -0.36F}, {0.38F, -0.12F}, {0.14F, 0.12F}});
+      pen.lines({{0.36F, -0.12F}, {-0.34F, -0.12F}, {-0.34F, 0.34F}, {0.1F, 0.34F}});
+      break;
+    case Icon::kPencil:
+      pen.lines({{-0.4F, 0.4F}, {-0.33F, 0.1F}, {0.2F, -0.43F}, {0.43F, -0.2F}}, 0.1F);
+      pen.lines({{0.43F, -0.2F}, {-0.1F, 0.33F}, {-0.4F, 0.4F}}, 0.1F);
+      pen.line({0.05F, -0.28F}, {0.28F, -0.05F}, 0.1F);
+      break;
     case Icon::kNone:
       break;
   }

@@ -58,7 +58,7 @@ void focus_next_panel(bool back) {
   g.NavDisableHighlight = false;
 }
 
-constexpr std::array<KeyAction, 19> kActions{
+constexpr std::array<KeyAction, 20> kActions{
     {{"Space", " ", "play, pause",
       [](App& app, char) {
         // The focused control handles the space bar.
@@ -94,6 +94,11 @@ constexpr std::array<KeyAction, 19> kActions{
      {"O", "oO", "open a scene file",
       [](App& app, char) {
         if (app.host.open_file) app.host.open_file();
+      }},
+     {"E", "eE", "edit the scene as text",
+      [](App& app, char) {
+        const bool open = app.desk.tab == Tab::kText && app.desk.panels && app.desk.right.open;
+        open ? close_scene_text(app.desk) : open_scene_text(app.desk);
       }},
      {"S", "sS", "save the scene as it is now", [](App& app, char) { app.save_scene(); }},
      {"P", "pP", "picture of the window",

@@ -1,5 +1,7 @@
 // Text overlays of the picture.
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -168,7 +170,13 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ImVec2 at(v.x + 16.0F, v.y + v.height - 28.0F);
   const double r = session.state().r;  // of the stiffest body
-  const std::string text = "k/M, 0 to " + short_number(r) + " s⁻²: orange needs the smallest steps";
+  std::string text = "k/M, 0 to " + short_number(r) + " s⁻²";
+  // The buttons in the other corner, see tour_card.cpp, leave room for the whole sentence or not.
+  const ImGuiWindow* buttons = ImGui::FindWindowByName("##tour_button");
+  const float end = buttons != nullptr && buttons->Active ? buttons->Pos.x : v.x + v.width;
+  const std::string sentence = text + ": orange needs the smallest steps";
+  const float room = end - at.x - 2 * kHalf - 24.0F;
+  if (text_size(look.fonts.small, sentence).x < room) text = sentence;
   const ImVec2 size = text_size(look.fonts.small, text);
   draw.AddRectFilled({at.x - 8.0F, at.y - 8.0F},
                      {at.x + 2 * kHalf + 16.0F + size.x, at.y - 2.0F + size.y},

@@ -79,6 +79,12 @@ void find_n(const Look& look, Lab& lab);
 const Result* find_n_chart(const Look& look, const FindN& find, float width);
 /// A button that opens the panel and starts the search.
 void find_n_button(const Look& look, Lab& lab, Desk& desk);
+/// The scene as text, with its problems.
+void scene_text_panel(const Look& look, Lab& lab, Desk& desk, float height);
+/// Opens that panel.
+void open_scene_text(Desk& desk);
+void close_scene_text(Desk& desk);
+inline constexpr const char* kEditText = "Edit as text";
 /// The recommendation in the same panel: the cheapest within an error or the most accurate within a
 /// cost, with the reason, a button to run it, and a search for the paper's alpha.
 void advice(const Look& look, Lab& lab);

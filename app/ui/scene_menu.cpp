@@ -68,9 +68,12 @@ std::shared_ptr<const Scene> variant_items(
 
 void scene_picker(const Look& look, Lab& lab, Desk& desk, std::string_view tip) {
   const Scene& now = lab.session.scene();
-  const float width = ImGui::GetContentRegionAvail().x;
+  const float height = look.m.row + 4.0F;
+  constexpr float kBetween = 6.0F;
+  const bool in_lab = desk.level == DeskLevel::kLab;  // Explore has fewer than 20 controls
+  const float width = ImGui::GetContentRegionAvail().x - (in_lab ? height + kBetween : 0.0F);
   std::shared_ptr<const Scene> chosen;
-  menu_button(look, "scene", now.title, width, look.m.row + 4.0F, tip, [&] {
+  menu_button(look, "scene", now.title, width, height, tip, [&] {
     std::string group;
     bool first = true;
     for (const auto& scene : lab.library.scenes()) {
@@ -88,6 +91,13 @@ void scene_picker(const Look& look, Lab& lab, Desk& desk, std::string_view tip) 
       }
     }
   });
+  if (in_lab) {
+    ImGui::SameLine(0.0F, kBetween);
+    if (button(look, kEditText, Icon::kPencil, "", ButtonKind::kPlain, height, height,
+               "Edit this scene as text (E)")) {
+      open_scene_text(desk);
+    }
+  }
   if (chosen) lab.run(chosen);
 }
 

@@ -33,6 +33,7 @@ void items(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   if (host.open_link && menu_item(look, "Open the copied link")) host.open_link();
   line();
   if (host.open_file && menu_item(look, "Open scene …", "O")) host.open_file();
+  if (menu_item(look, kEditText, "E")) open_scene_text(desk);
   if (host.save_file && menu_item(look, "Save scene as it is now", "S")) lab.save_scene();
   line();
   if (host.save_file && menu_item(look, "Picture of the window", "P"))

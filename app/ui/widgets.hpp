@@ -113,6 +113,8 @@ enum class Icon : unsigned char {
   kFollow,
   kSweep,
   kUndo,
+  kRedo,
+  kPencil,
   kNone
 };
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);

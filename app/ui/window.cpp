@@ -106,8 +106,8 @@ constexpr float kLeastView = 320.0F;
 
 // The strip at a panel's inner edge: a drag changes the width; a click folds or unfolds the panel.
 // @param outward +1 if the panel is to the right of the strip, -1 if to the left
-void edge(App& app, const char* id, PanelSide& side, const ViewRect& strip, float width, float most,
-          float outward) {
+void edge(App& app, const char* id, PanelSide& side, float& dragged, const ViewRect& strip,
+          float width, float most, float outward) {
   const Theme& t = *app.look.theme;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
@@ -117,7 +117,7 @@ void edge(App& app, const char* id, PanelSide& side, const ViewRect& strip, floa
     const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (hot) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (ImGui::IsItemActive() && moved && side.open) {
-      side.width = std::clamp(width - outward * ImGui::GetIO().MouseDelta.x, kLeastPanel, most);
+      dragged = std::clamp(width - outward * ImGui::GetIO().MouseDelta.x, kLeastPanel, most);
     }
     if (ImGui::IsItemDeactivated() && !moved) side.open = !side.open;
     const ImVec2 c(strip.x + 0.5F * strip.width, strip.y + 0.5F * strip.height);
@@ -130,20 +130,23 @@ void edge(App& app, const char* id, PanelSide& side, const ViewRect& strip, floa
   ImGui::PopStyleVar(2);
 }
 
-float width_of(const PanelSide& side, float suits, float most) {
-  return side.width > 0.0F ? std::clamp(side.width, kLeastPanel, std::max(kLeastPanel, most))
-                           : suits;
+// As dragged, else as it suits.
+float width_of(float dragged, float suits, float most) {
+  return dragged > 0.0F ? std::clamp(dragged, kLeastPanel, std::max(kLeastPanel, most)) : suits;
 }
 
 // A folded panel leaves only the strip that unfolds it.
 void desktop_panels(App& app, const ViewRect& space) {
+  const bool is_text = app.desk.tab == Tab::kText;
   const bool wide = space.width >= 1476.0F;
   const float most = 0.5F * (space.width - kLeastView);
   PanelSide& left = app.desk.left;
   PanelSide& right = app.desk.right;
-  const float left_width = width_of(left, wide ? 300.0F : 276.0F, most);
-  const float right_width =
-      width_of(right, std::clamp(std::round(0.235F * space.width), 288.0F, 460.0F), most);
+  float& right_dragged = is_text ? app.desk.text_width : right.width;
+  const float right_suits = is_text ? std::clamp(std::round(0.36F * space.width), 400.0F, 640.0F)
+                                    : std::clamp(std::round(0.235F * space.width), 288.0F, 460.0F);
+  const float left_width = width_of(left.width, wide ? 300.0F : 276.0F, most);
+  const float right_width = width_of(right_dragged, right_suits, most);
   const float left_edge = left.open ? space.x + left_width : space.x - app.look.m.margin;
   const float right_edge =
       right.open ? space.x + space.width - right_width : space.x + space.width + app.look.m.margin;
@@ -160,14 +163,21 @@ void desktop_panels(App& app, const ViewRect& space) {
   }
   if (right.open) {
     if (begin_panel("##plots", {right_edge, space.y, right_width, space.height})) {
-      instruments(app, space.height - 2.0F * app.look.m.pad);
-      scroll_by_drag();
+      const float height = space.height - 2.0F * app.look.m.pad;
+      if (is_text) {
+        scene_text_panel(app.look, app, app.desk, height);
+      } else {
+        instruments(app, height);
+        scroll_by_drag();
+      }
     }
     ImGui::End();
   }
   const float y = space.y + 0.5F * space.height - 60.0F;
-  edge(app, "##left_edge", left, {left_edge, y, kEdge, 120.0F}, left_width, most, -1.0F);
-  edge(app, "##right_edge", right, {right_edge - kEdge, y, kEdge, 120.0F}, right_width, most, 1.0F);
+  edge(app, "##left_edge", left, left.width, {left_edge, y, kEdge, 120.0F}, left_width, most,
+       -1.0F);
+  edge(app, "##right_edge", right, right_dragged, {right_edge - kEdge, y, kEdge, 120.0F},
+       right_width, most, 1.0F);
 }
 
 void desktop(App& app, ImVec2 display) {
@@ -210,6 +220,12 @@ void phone(App& app, ImVec2 display) {
     transport(app, true);
     if (app.desk.panels) {
       ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
+      if (app.desk.tab == Tab::kText) {
+        scene_text_panel(app.look, app, app.desk, ImGui::GetContentRegionAvail().y);
+        ImGui::End();
+        ImGui::PopStyleVar(3);
+        return;
+      }
       const auto panels = panels_of(app.desk);
       // The tour's text replaces the tabs and links to the panels itself.
       const Panel& open =

@@ -5,20 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/io/text_places.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {
-
-/// "line 3, column 14: "
-std::string place(std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, std::min(offset, text.size()));
-  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-  const std::size_t newline = before.rfind('\n');
-  const std::size_t column =
-      newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
-  return "line " + std::to_string(line) + ", column " + std::to_string(column) + ": ";
-}
 
 /// The library's message without its prefix, in plain ASCII whatever bytes the text has.
 std::string plain_message(std::string message) {
@@ -72,7 +63,7 @@ class Builder {
       overflow_size = token.size();
     } else {
       const std::size_t offset = position == 0 ? 0 : position - 1;
-      problems_.push_back({"", place(text_, offset) + plain_message(error.what())});
+      problems_.push_back({"", place_text(place_at(text_, offset)) + plain_message(error.what())});
     }
     return false;
   }
@@ -182,7 +173,7 @@ std::optional<Json> parse_json(std::string_view text, Problems& problems) {
     return fail("is XML: scenes are JSON; `substep import` makes one of a model in MJCF or URDF");
   }
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
-    return fail(place(text, zero) + "a zero byte: this is not a text file");
+    return fail(place_text(place_at(text, zero)) + "a zero byte: this is not a text file");
   }
 
   // A number beyond the range stops the library. It is recorded and replaced by null, and parsing

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/io/json.hpp"
 #include "core/io/scene_reader.hpp"
+#include "core/io/text_places.hpp"
 
 namespace substep::test {
 
@@ -48,7 +52,51 @@ inline std::string with(const std::string& passage, const std::string& replaceme
   return text;
 }
 
+/// Number of lines of a value in a text in which every value stands on a line of its own.
+inline std::size_t lines_of(const Json& value) {
+  if (!value.is_structured() || value.empty()) return 1;
+  std::size_t lines = 2;
+  for (const Json& item : value) lines += lines_of(item);
+  return lines;
+}
+
+/// The place of a pointer in that text, or of the innermost value around it.
+inline TextPlace place_by_counting(const Json& document, std::string pointer) {
+  TextPlace place;
+  const Json* at = &document;
+  while (!pointer.empty()) {
+    const std::string part = pointer.substr(0, pointer.find('/', 1));
+    pointer.erase(0, part.size());
+    if (!at->contains(Json::json_pointer(part))) break;
+    const Json* inner = &at->at(Json::json_pointer(part));
+    ++place.line;
+    ++place.column;
+    for (const Json& item : *at) {
+      if (&item == inner) break;
+      place.line += lines_of(item);
+    }
+    at = inner;
+  }
+  return place;
+}
+
+/// Every problem is found at its place: in the text, as another text with other line breaks.
+inline void expect_places(const std::string& text) {
+  const Json document = Json::parse(text, nullptr, false);
+  if (document.is_discarded()) return;  // the parser gives the place, or a number has no value
+  const std::string broken = document.dump(1);
+  const Problems problems = read_scene(broken).problems;
+  const std::vector<TextPlace> places = places_of(problems, broken);
+  ASSERT_EQ(places.size(), problems.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_EQ(places[i], place_by_counting(document, problems[i].pointer))
+        << to_string(problems[i]) << " is shown at line " << places[i].line << ", column "
+        << places[i].column;
+  }
+}
+
 inline List problems_of(const std::string& text) {
+  expect_places(text);
   const SceneResult result = read_scene(text);
   List problems;
   for (const Problem& problem : result.problems) problems.push_back(to_string(problem));

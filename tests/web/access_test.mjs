@@ -60,6 +60,7 @@ const states = {
   help: (page) => call(page, "set", { help: "on" }),
   accuracy: (page) => call(page, "set", { help: "off", panel: "accuracy" }),
   comparison: (page) => call(page, "set", { panel: "compare", compare: "mode:none", views: "split" }),
+  "the scene as text": (page) => call(page, "set", { panel: "editor" }),
   "the tour": (page) => call(page, "set", { tour: 2 }),
   "the first screen": (page) => call(page, "set", { introduction: "on" }),
   "a lost context": (page) => page.evaluate(() => document.querySelector(".substep-view")
@@ -154,10 +155,33 @@ test("everything is operable by keyboard, and the focus can leave", async () => 
   await page.keyboard.press("Tab");
   await page.keyboard.press("Enter");
   await reports(page, "frame", 0);
+  // The scene as text: an error is shown with its line, and mended the text runs.
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(page), "text");
+  await page.keyboard.press("Enter");
+  assert.equal(await focused(page), "source");
+  const source = page.locator("textarea[name=source]");
+  const text = await source.inputValue();
+  const line = text.slice(0, text.indexOf('"mass": 1000')).split("\n").length;
+  const faults = page.locator(".substep-source li");
+  await source.fill(text.replace('"mass": 1000', '"mass": -7'));
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(page), "apply");
+  await page.keyboard.press("Enter");
+  assert.equal(await faults.count(), 1);
+  assert.match(await faults.first().textContent(),
+    new RegExp(`^Line ${line}, /bodies/\\d+/mass: must be at least 1e-30 .kg., not -7$`));
+  assert.equal((await call(page, "report")).scene, "swinging_box");
+  await source.fill(text.replace('"mass": 1000', '"mass": 700'));
+  await page.locator("button[name=apply]").press("Enter");
+  assert.equal(await faults.count(), 0);
+  await reports(page, "scene", "swinging_box_own");
+  assert.equal((await call(page, "report")).alpha, 0.25, "the method is kept");
+  await page.locator("button[name=text]").press("Enter"); // folds it
   await page.keyboard.press("Tab");
   assert.equal(await focused(page), "after", "the focus cannot leave");
   await page.waitForFunction(() => document.querySelector(".substep-view").getBoundingClientRect().y === 0);
-  for (let i = 0; i < 8; ++i) await page.keyboard.press("Shift+Tab");
+  for (let i = 0; i < 9; ++i) await page.keyboard.press("Shift+Tab");
   assert.equal(await focused(page), "substep-view");
   await leave(page);
 });

@@ -42,7 +42,7 @@ function attemptsWith(name, value) {
   const lab = window.substep;
   const list = [];
   const add = (what, act) => list.push([what, act]);
-  for (const method of ["load", "set", "goTo", "openLink"]) {
+  for (const method of ["load", "set", "goTo", "openLink", "editText"]) {
     add(`${method}(${name})`, () => lab[method](value));
   }
   add(`step(${name})`, () => lab.step(value ?? null)); // without an argument it is one frame

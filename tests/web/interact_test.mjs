@@ -107,6 +107,37 @@ test("why this N has its own panel", async () => {
   quiet(page);
 });
 
+test("an error in the scene's text is shown at its line, and mended the text runs", async () => {
+  await run(0);
+  await call(page, "set", { panel: "editor" });
+  await drawn(page);
+  const scene = await call(page, "sceneText");
+  assert.deepEqual([scene.ok, scene.runs], [true, true]);
+  await page.mouse.click(...place(await find(page, "scene text"), 0.9)); // the end of a line
+  await drawn(page);
+  await page.keyboard.type("x");
+  await drawn(page);
+  const wrong = await call(page, "sceneText");
+  assert.equal(wrong.problems.length, 1);
+  const { line } = wrong.problems[0];
+  await save(page, "editor-error");
+  const lines = [...wrong.text].map((letter, i) => (letter === scene.text[i] ? null : i));
+  const typed = wrong.text.slice(0, lines.find((i) => i !== null)).split("\n").length;
+  assert.ok(line === typed || line === typed + 1, `${line}, typed at ${typed}`);
+  await appears(page, `marked line ${line}`);
+  assert.equal((await call(page, "report")).scene, "swinging_box", "the run is kept");
+  await page.keyboard.press("Control+Z");
+  await drawn(page);
+  assert.deepEqual(await call(page, "sceneText"), scene);
+  const edited = await call(page, "editText", scene.text.replace('"mass": 1000', '"mass": 10'));
+  assert.ok(edited.ok);
+  assert.equal((await call(page, "report")).scene, "swinging_box_own");
+  await save(page, "editor");
+  await call(page, "set", { panel: "plots" });
+  await run(0);
+  quiet(page);
+});
+
 test("touches rotate, zoom and scroll", async () => {
   const phone = await openPage(session, { width: 390, height: 844, touch: true, calm: true });
   await call(phone, "pause");
@@ -143,6 +174,14 @@ test("touches rotate, zoom and scroll", async () => {
   await save(phone, "phone-fingers", now);
   assert.ok(difference(part(before, lower), part(now, lower)) > 0.03, "the panel did not scroll");
   assert.deepEqual(await phone.evaluate(() => [window.scrollX, window.scrollY]), [0, 0]);
+  // A tap on the scene's text opens the HTML field, for the keyboard of the screen.
+  await call(phone, "set", { panel: "editor" });
+  await drawn(phone);
+  const field = place(await find(phone, "scene text"));
+  await gesture([field, field]);
+  await phone.waitForFunction(() => document.activeElement.name === "source");
+  assert.ok((await phone.locator("textarea[name=source]").inputValue()).includes("heavy_stack"));
+  await save(phone, "phone-text");
   await leave(phone);
 });
 

@@ -87,7 +87,17 @@ test("contains a user's scene, and another browser runs it", async () => {
   await drop(page, "mine.json", await ownScene());
   await call(page, "set", { mode: "const", n: 5 });
   await page.waitForURL(/scene64=/);
+  // Edited as text, it is in the link as edited; edits are no pages to go back to.
+  const entries = await page.evaluate(() => history.length);
+  const { text } = await call(page, "sceneText");
+  const longer = text.replace(/"gravity": .*/, '"gravity": [0, -3.7, 0],');
+  assert.notEqual(longer, text);
+  const before = await call(page, "link");
+  const edited = await call(page, "editText", longer);
+  assert.deepEqual([edited.ok, edited.runs, edited.problems], [true, true, []]);
+  await page.waitForFunction((old) => location.href !== old, before);
   const link = await call(page, "link");
+  assert.equal(await page.evaluate(() => history.length), entries);
   assert.ok(link.length < 2000, `${link.length} letters`);
   const hash = await hashAfter(page, 40);
   await leave(page); // and what it stored

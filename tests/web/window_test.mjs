@@ -36,10 +36,12 @@ test("opens, draws the scene, and its plots move", () => {
 });
 
 test("is sharp with a pixel ratio of 2", () => {
-  const picture = shot("ratio-2", "--scene", "heavy_stack", "--size", "1000x640", "--scale", "2",
-    "--frames", "5", "--light");
+  const picture = shot("ratio-2", "--size", "1000x640", "--scale", "2", "--frames", "5",
+    "--link", "scene=heavy_stack&theme=light");
   assert.deepEqual([picture.width, picture.height], [2000, 1280]);
   assert.ok(variance(picture) > 120);
+  const brightness = picture.data.reduce((sum, value) => sum + value, 0) / picture.data.length;
+  assert.ok(brightness > 180, `${brightness}: the theme of the link`);
 });
 
 test("reports invalid arguments", () => {

@@ -518,6 +518,14 @@ class Doctor {
   void try_remedies() {
     try_shorter_steps();
     try_remedy("substep's adaptive sub-steps", shaken_, Settings{}, kNoLimit);
+    if (!diagnosis_.by_drive) try_other_methods();
+    try_armature();
+    try_inertia();
+  }
+
+  /// They stabilise the geometric stiffness. What the engine treats explicitly in a drive is not in
+  /// their runs.
+  void try_other_methods() {
     const auto as_asked = at_step(*shaken_, question_.step);
     Settings damping = explicit_settings();
     damping.mode = Mode::kDamping;
@@ -525,8 +533,6 @@ class Doctor {
     Settings newton = explicit_settings();
     newton.solver = SolverKind::kNewton;
     try_remedy("Newton's method at this step", as_asked, newton, kNoLimit);
-    try_armature();
-    try_inertia();
   }
 
   /// From that with a margin on, halved until one holds.

@@ -231,6 +231,30 @@ TEST(Doctor, TriesItsRemedies) {
   }
 }
 
+// The drives of a run are implicit: other methods hold there whatever the engine does with them.
+TEST(Doctor, OffersAgainstADriveOnlyWhatItsEngineHolds) {
+  const auto scene = driven_rod(2000.0, 20.0).build();
+  DoctorQuestion question;
+  question.engine = engine_of("mujoco");
+  question.step = 1.5 * at_start(*scene, 0.02, "mujoco").step;
+  question.seconds = 0.5;
+  const Diagnosis d = diagnose(scene, question);
+  EXPECT_TRUE(d.by_drive);
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::kFails);
+  int shorter = 0;
+  int changes = 0;
+  for (const TriedRemedy& tried : d.remedies) {
+    if (tried.text.starts_with("substep's")) continue;  // another engine
+    const bool is_shorter = tried.shorter > 0.0;
+    (is_shorter ? shorter : changes) += 1;
+    const double step = is_shorter ? tried.shorter : question.step;
+    EXPECT_GE(tried.step, 1.399 * step) << tried.text;
+    EXPECT_TRUE(tried.holds) << tried.text;
+  }
+  EXPECT_EQ(shorter, 1);
+  EXPECT_GE(changes, 1);
+}
+
 bool warns(const Diagnosis& d, const std::string& of) {
   return std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& finding) {
     return finding.text.find(of) != std::string::npos;

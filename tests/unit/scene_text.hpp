@@ -80,15 +80,19 @@ inline TextPlace place_by_counting(const Json& document, std::string pointer) {
   return place;
 }
 
-/// Every problem is found at its place: in the text, as another text with other line breaks.
+/// Every problem is found at its place: in the text, as another text with other line breaks. Of
+/// very many problems the first ones, because each is counted from the start.
 inline void expect_places(const std::string& text) {
+  constexpr std::size_t kMost = 50;
+  constexpr std::size_t kLongest = 1U << 20U;  // Json::parse: quadratic in the keys of an object
+  if (text.size() > kLongest) return;
   const Json document = Json::parse(text, nullptr, false);
   if (document.is_discarded()) return;  // the parser gives the place, or a number has no value
   const std::string broken = document.dump(1);
   const Problems problems = read_scene(broken).problems;
   const std::vector<TextPlace> places = places_of(problems, broken);
   ASSERT_EQ(places.size(), problems.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(places.size(), kMost); ++i) {
     EXPECT_EQ(places[i], place_by_counting(document, problems[i].pointer))
         << to_string(problems[i]) << " is shown at line " << places[i].line << ", column "
         << places[i].column;

@@ -50,7 +50,7 @@ struct Substep {
   std::vector<Mat3> R_WB;     // at its start, static bodies included
   std::vector<Vec6> u_start;  // at its start [m/s, rad/s]
   std::span<Block> rows;      // phi, J; later bias, softness, impulse
-  std::size_t solved = 0;     // blocks that a solve of this sub-step left with impulses to start from
+  std::size_t solved = 0;     // blocks that an earlier solve of this sub-step left with impulses
   SolveLimits limits;
   std::vector<MotorsOnBody> drives_on;    // forces and torques of drives; empty without any
   std::vector<double> impulse_time;       // duration of applied forces [s]

@@ -73,11 +73,11 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     if (fragment === written) return;
     // Going back returns to the previous scene, without the settings and the edits in between.
     const scene = sceneOf(fragment);
-    const anew = written !== "" && scene !== writtenScene;
-    if (anew) before = written;
+    const isNewScene = written !== "" && scene !== writtenScene;
+    if (isNewScene) before = written;
     written = fragment;
     writtenScene = scene;
-    history[anew ? "pushState" : "replaceState"](null, "", fragment);
+    history[isNewScene ? "pushState" : "replaceState"](null, "", fragment);
   }
 
   async function read() {

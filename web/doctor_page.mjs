@@ -136,7 +136,7 @@ function show(diagnosis, isWhole) {
   showDetails(at("details"), diagnosis, isWhole, apply);
   const { geometric } = diagnosis.start.reduce((least, group) => ({
     geometric: Math.min(least.geometric, group.geometric_step ?? Infinity) }), { geometric: Infinity });
-  at("caveat").textContent = diagnosis.by_drive || diagnosis.joints.length === 0
+  at("caveat").textContent = diagnosis.drives.length > 0 && (diagnosis.by_drive || diagnosis.joints.length === 0)
     ? "The drives of this laboratory are implicit and hold at any step: their limit does not show in "
       + `this run. ${geometric < Infinity ? `Geometric stiffness limits it to ${stepText(geometric)}.`
         : "Geometric stiffness sets no limit at the start."}`

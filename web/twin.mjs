@@ -121,7 +121,7 @@ export function makeTwin(section, calls) {
         { textContent: place ? `${place}: ${message}` : message });
     }));
     live.textContent = problems.length === 0 ? "The text runs"
-      : `${problems.length} problems. ${faults.firstChild.textContent}`;
+      : `${problems.length} ${problems.length === 1 ? "problem" : "problems"}. ${faults.firstChild.textContent}`;
     update();
     makeRoom();
   });

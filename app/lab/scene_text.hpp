@@ -31,7 +31,7 @@ class SceneText {
 
   /// Shows the text of another scene, without problems; undo() returns to the text before it.
   void show(std::string text, std::shared_ptr<const Scene> scene);
-  /// Replaces the text by what it is after an edit. @return false if it is too long: then nothing
+  /// Replaces the text and records the change. @return false if it is too long: then nothing
   /// changes
   bool edit(std::string text);
   /// @return the change of the text, or null if there is none to undo

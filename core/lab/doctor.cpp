@@ -518,9 +518,26 @@ class Doctor {
   void try_remedies() {
     try_shorter_steps();
     try_remedy("substep's adaptive sub-steps", shaken_, Settings{}, kNoLimit);
-    if (!diagnosis_.by_drive) try_other_methods();
+    if (step_of_drives() >= kSafeMargin * question_.step) try_other_methods();
     try_armature();
     try_inertia();
+  }
+
+  /// The largest step that drives and springs alone allow, without geometric stiffness, as the
+  /// engine treats them [s].
+  [[nodiscard]] double step_of_drives() const {
+    double step = kNoLimit;
+    for (const DriveLimit& drive : diagnosis_.drives) step = std::min(step, drive.step);
+    const auto consider_drives = [&](const std::vector<LinearModel>& models) {
+      for (const LinearModel& model : models) {
+        LinearSystem system = system_of(model, question_);
+        system.stiffness -= model.geometric();
+        step = std::min(step, known(largest_step(system).step));
+      }
+    };
+    consider_drives(models_);
+    if (narrowest_.state) consider_drives(LinearModel::of(*scene_, *narrowest_.state));
+    return step;
   }
 
   /// They stabilise the geometric stiffness. What the engine treats explicitly in a drive is not in

@@ -73,8 +73,10 @@ void mean_sliding(const double* before, const double* after, double c, double s,
   block.softness[2] = block.softness[1];  // until soften_across()
 }
 
-// What friction stops within this part of the sub-step sticks. Its direction is that of rounding
-// errors in a body at rest, and tangents that follow it change the forces in every sub-step.
+/// Sliding slower than this has no direction [m/s]: friction stops it in a small part of the
+/// sub-step. In bodies at rest it is rounding error, and tangents that followed it would change the
+/// forces in every sub-step. The normal speed alone is no measure: it is zero between bodies that
+/// fall together.
 double slowest_sliding(const System& system, const Block& contact, double normal_speed) {
   constexpr double kOfForces = 1e-5;  // of the speed that forces give in the sub-step [-]
   constexpr double kOfNormal = 1e-6;  // of the normal speed [-]

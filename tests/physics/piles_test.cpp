@@ -90,8 +90,8 @@ TEST(Piles, ARestingPyramidStopsSinking) {
 
 // Sliding at the speed of rounding errors has no direction: tangents that followed it would change
 // the forces, and with them the rows at their bounds, in every sub-step for ever.
-TEST(Piles, ARestingPyramidKeepsItsForces) {
-  Simulator simulator(std::make_shared<const Scene>(pyramid_of(15, 0.5)));
+void expect_steady_forces(const Scene& scene) {
+  Simulator simulator(std::make_shared<const Scene>(scene));
   for (int i = 0; i < 150; ++i) simulator.step();
   for (int i = 0; i < 10; ++i) {
     const FrameReport report = simulator.step();
@@ -99,6 +99,35 @@ TEST(Piles, ARestingPyramidKeepsItsForces) {
     EXPECT_EQ(report.work.solves, report.n_substeps);
     EXPECT_LT(report.kinetic, 1e-20);
   }
+}
+
+TEST(Piles, ARestingPyramidKeepsItsForces) { expect_steady_forces(pyramid_of(15, 0.5)); }
+
+/// Boxes of unequal sizes, moments and masses on a plane, each turned against the one below.
+Scene tower(int boxes, const Quat& slope, double turn) {
+  SceneBuilder builder("tower");
+  const int plane = builder.add_fixed(Plane{}, Vec3::Zero());
+  builder.body(plane).orientation = slope;
+  builder.body(plane).friction = 0.8;
+  double top = 0.0;
+  for (int i = 0; i < boxes; ++i) {
+    const double half = 0.1 + 0.03 * (i % 3);
+    const Vec3 place{0.02 * (i % 2), top + half, 0.01 * (i % 3)};
+    const int box = builder.add_body(Box{{0.6 - 0.03 * i, half, 0.4 + 0.02 * (i % 4)}},
+                                     1.0 + 7.0 * (i % 2), slope * place);
+    builder.body(box).orientation = slope * Quat(Eigen::AngleAxisd(turn * i, Vec3::UnitY()));
+    builder.body(box).friction = 0.8;
+    top += 2.0 * half;
+  }
+  Scene scene = *builder.build();
+  scene.settings = substep::Settings{};
+  return scene;
+}
+
+TEST(Piles, RestingTowersKeepTheirForces) {
+  expect_steady_forces(tower(10, Quat::Identity(), 0.3));
+  const Vec3 axis = Vec3{1.0, 0.0, 0.7}.normalized();
+  expect_steady_forces(tower(4, Quat(Eigen::AngleAxisd(0.2, axis)), 0.0));
 }
 
 // A box on a slope, which friction holds: neither it nor the contacts creep.

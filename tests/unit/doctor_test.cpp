@@ -255,6 +255,31 @@ TEST(Doctor, OffersAgainstADriveOnlyWhatItsEngineHolds) {
   EXPECT_GE(changes, 1);
 }
 
+// Geometric stiffness sets the limit, and a drive alone would allow less than the asked step, too.
+TEST(Doctor, OffersNoMethodThatLeavesADriveTooStiff) {
+  const auto methods = [](double share) {
+    DoctorQuestion question;
+    question.engine = engine_of("mujoco");
+    question.step = 1.0 / 60.0;
+    question.seconds = 0.2;
+    SceneBuilder builder = hanging(500.0);
+    builder.drive(0, {.stiffness = 1.0, .damping = 0.0});
+    const Scene soft = *builder.build();
+    const double step = share * question.step;
+    SceneBuilder stiffer = hanging(500.0);
+    stiffer.drive(
+        0, {.stiffness = 4.0 * at_start(soft, 0.02, "mujoco").drives[0].inertia / (step * step),
+            .damping = 0.0});
+    const Diagnosis d = diagnose(stiffer.build(), question);
+    EXPECT_FALSE(d.by_drive) << d.limited_by;
+    return std::count_if(d.remedies.begin(), d.remedies.end(), [](const TriedRemedy& tried) {
+      return tried.text.ends_with("at this step");
+    });
+  };
+  EXPECT_EQ(methods(0.9), 0);
+  EXPECT_EQ(methods(3.0), 2);
+}
+
 bool warns(const Diagnosis& d, const std::string& of) {
   return std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& finding) {
     return finding.text.find(of) != std::string::npos;

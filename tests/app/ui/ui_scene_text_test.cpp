@@ -45,7 +45,7 @@ std::size_t whole_character(const std::string& text, std::size_t at) {
 }
 
 std::string random_edit(std::string text, std::size_t& cursor, std::mt19937& random) {
-  if (random() % 4 == 0) cursor = random() % (text.size() + 1);  // else it goes on typing
+  if (random() % 4 == 0) cursor = random() % (text.size() + 1);  // else at the last place
   cursor = whole_character(text, std::min(cursor, text.size()));
   const std::size_t longest = random() % 8 == 0 ? 60 : 1;
   const std::size_t end =
@@ -367,7 +367,7 @@ TEST(SceneEditor, AValidEditRunsFromItsStartAndAnInvalidOneDoesNot) {
   const auto before = h.app->session.shared_scene();
   replace_passage(h, "\"mass\": 1000", "\"mass\": -7");
   EXPECT_EQ(h.app->session.shared_scene(), before);
-  EXPECT_GT(h.app->session.state().frame, 40) << "it goes on";
+  EXPECT_GT(h.app->session.state().frame, 40) << "the run continues";
   ASSERT_FALSE(h.app->editor.text().problems().empty());
   EXPECT_EQ(h.app->trouble.title, "") << "no card while typing";
   replace_passage(h, "\"mass\": -7", "\"mass\": 700");
@@ -575,7 +575,7 @@ TEST(SceneEditor, HostileTextsLeaveTheRunAndTheWindow) {
     h.app->editor.edit(hostile);
     h.frames(40);
     EXPECT_EQ(h.app->session.scene().name, "pendulum");
-    EXPECT_GT(h.app->session.state().frame, frame) << "the run goes on";
+    EXPECT_GT(h.app->session.state().frame, frame) << "the run continues";
     EXPECT_FALSE(h.app->editor.text().problems().empty());
     h.app->editor.undo();
     h.frames(3);

@@ -9,7 +9,7 @@
 namespace substep {
 namespace {
 
-constexpr std::size_t kMostCoordinates = 30'000'000;
+constexpr std::size_t kMostMeshCoordinates = 30'000'000;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
@@ -74,7 +74,7 @@ std::vector<Vec3> points_of_obj(std::string_view content, std::string& fault) {
 
 std::vector<Vec3> points_of_text(std::string_view text, std::string& fault) {
   std::vector<Vec3> points;
-  const auto numbers = numbers_of(text, kMostCoordinates);
+  const auto numbers = numbers_of(text, kMostMeshCoordinates);
   if (!numbers || numbers->empty() || numbers->size() % 3 != 0) {
     fault = "its vertices are not triples of numbers";
     return points;

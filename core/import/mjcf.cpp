@@ -12,8 +12,6 @@
 namespace substep {
 namespace {
 
-using FromGeom = MjcfCompiler::FromGeom;
-
 /// Sections that are read, and those without effect on the motion.
 constexpr std::string_view kRead[] = {"compiler",  "option",   "default",  "asset",
                                       "worldbody", "equality", "actuator", "keyframe"};
@@ -36,7 +34,8 @@ MjcfCompiler read_compiler(const MjcfContext& context) {
     }
     if (in.text_or("coordinate", "local") != "local") in.error("coordinate must be local");
     if (const auto from = in.choice("inertiafromgeom")) {
-      compiler.inertia_from_geom = *from ? FromGeom::kYes : FromGeom::kNo;
+      compiler.inertia_from_geom =
+          *from ? MjcfCompiler::FromGeom::kYes : MjcfCompiler::FromGeom::kNo;
     }
     const std::vector<double> groups = in.numbers("inertiagrouprange", 2, 2, symmetric(1e6, "-"));
     if (!groups.empty()) {

@@ -117,7 +117,7 @@ TEST(JointTree, AgreesWithThePlanarChainOnTheSwingingBox) {
   auto chain = PlanarChain::of(scene);
   ASSERT_TRUE(chain.has_value());
   EXPECT_EQ(tree.size(), 26);
-  for (int frame = 0; frame < repetitions(300, 30); ++frame) {
+  for (int frame = 0; frame < repetitions(300, 10); ++frame) {
     tree.advance(scene.frame);
     chain->advance(scene.frame);
     for (int i = 1; i <= 26; ++i) {

@@ -8,6 +8,7 @@
 
 #include "core/lab/linear_model.hpp"
 #include "core/model/scene_builder.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/two_rods.hpp"
 
 namespace substep {
@@ -53,7 +54,7 @@ double largest_laguerre_root(int n) {
 // w^2 = g/l x, x the roots of L_n: for n = 2, 2 +- sqrt 2.
 TEST(LinearModel, OfAHangingChainHasTheRootsOfLaguerre) {
   EXPECT_NEAR(largest_laguerre_root(2), 2.0 + std::sqrt(2.0), 1e-14);
-  for (int n = 1; n <= 50; ++n) {
+  for (int n = 1; n <= repetitions(50, 20); ++n) {
     const LinearModel model = model_of(chain(n, 0.4, 0.7, 0.7));
     const double exact = 2.0 / std::sqrt(kWeight / 0.4 * largest_laguerre_root(n));
     EXPECT_NEAR(step_of(model), exact, 1e-9 * exact) << n;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/lab/step_rules.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace substep {
 namespace {
@@ -99,7 +100,7 @@ Matrix random_positive(RandomBits& random, Eigen::Index n, Eigen::Index rank) {
 // Several joints, all four kinds of terms.
 TEST(StepRules, OfSeveralCoordinatesAreExact) {
   RandomBits random(3);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < repetitions(20000, 2000); ++i) {
     const auto n = static_cast<Eigen::Index>(2 + random() % 4);
     const Matrix M = random_positive(random, n, n) + 0.1 * Matrix::Identity(n, n);
     const Matrix K_e = 100.0 * (random_positive(random, n, n) + 0.01 * Matrix::Identity(n, n));

@@ -21,6 +21,8 @@ inline std::pair<int, int> bodies_of_contact(std::uint64_t id) {
   return {static_cast<int>((id >> 42U) & kBody), static_cast<int>((id >> 20U) & kBody)};
 }
 
+inline std::uint64_t feature_of_contact(std::uint64_t id) { return id & ((1U << 20U) - 1U); }
+
 /// One point where body a nearly touches body b. phi is the distance from a's point to b's surface.
 struct ContactPoint {
   int a = 0;                    // index into Scene::bodies

@@ -19,14 +19,6 @@ constexpr double kRounding = 1e-11;  // of the coordinate where a limit closes
 
 using Acts = CoordinateStage::Acts;
 
-/// Distinct from the ids of joints, contacts and grabs: bit 62, the joint from bit 2 on, and the
-/// part of it in bits 61, 1 and 0.
-std::uint64_t id_of(std::size_t joint, Acts part) {
-  const auto number = static_cast<std::uint64_t>(part);
-  return (1ULL << 62U) | ((number >> 2U) << 61U) | (static_cast<std::uint64_t>(joint) << 2U) |
-         (number & 3U);
-}
-
 /// Largest change of a coordinate in a motion [rad or m].
 double largest_change(const Block& block, std::span<const Vec6> w, double dt) {
   double speed = 0.0;
@@ -105,6 +97,14 @@ double coordinate_of(const Block& row) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   if (!row.seeded || row.position_rows > 0) return row.phi[0];
   return row.phi[0] + kTurn * std::round((row.elastic[0] - row.phi[0]) / kTurn);
+}
+
+// Distinct from the ids of joints, contacts and grabs: bit 62, the joint from bit 2 on, and the
+// part of it in bits 61, 1 and 0.
+std::uint64_t CoordinateStage::id_of(std::size_t joint, Acts part) {
+  const auto number = static_cast<std::uint64_t>(part);
+  return (1ULL << 62U) | ((number >> 2U) << 61U) | (static_cast<std::uint64_t>(joint) << 2U) |
+         (number & 3U);
 }
 
 int CoordinateStage::joint_of(std::uint64_t id) {

@@ -48,6 +48,7 @@ class CoordinateStage {
 
   /// Whether a block's id is one of these rows, which part of its joint it is, and the joint.
   [[nodiscard]] static bool is_id(std::uint64_t id) { return id >> 62U == 1U; }
+  [[nodiscard]] static std::uint64_t id_of(std::size_t joint, Acts part);
   [[nodiscard]] static Acts acts(std::uint64_t id);
   [[nodiscard]] static int joint_of(std::uint64_t id);
 

@@ -43,7 +43,7 @@ export function showAnswer(section, diagnosis, step) {
   section.className = word.replace(" ", "-");
   put(verdict, sentence(summary).replace(/(\d) (m?s)\b/g, "$1\u00a0$2")); // a number keeps its unit
   put(reason, `A step of ${stepText(step)} ${word}${limit === null ? ""
-    : `: ${digits(ratio, 2)} of the limit`}.`);
+    : `: ${digits(ratio, 2)} times the limit`}.`);
 }
 
 /** @param columns {title, isNumber} @param rows of texts and elements */

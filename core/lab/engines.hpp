@@ -24,7 +24,7 @@ struct Engine {
 
 inline constexpr std::array kEngines{
     Engine{"substep", "substep", Treated::kImplicit, Treated::kImplicit, false,
-           "mode const with n = %2, or adaptive with alpha = 1"},
+           "drift exact; mode const with n = %2, or adaptive with alpha = 1"},
     Engine{"mujoco", "MuJoCo, integrator Euler", Treated::kExplicit, Treated::kExplicit, false,
            "option timestep=\"%1\"", true},
     Engine{"mujoco-implicitfast", "MuJoCo, integrator implicitfast", Treated::kExplicit,

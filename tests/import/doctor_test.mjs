@@ -8,17 +8,17 @@ import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import test from "node:test";
-import { models } from "./doctor_models.mjs";
+import { models, moving } from "./doctor_models.mjs";
 import { inFolder, Oracle, whole, withoutFiles } from "./mujoco.mjs";
 
 const [program, ...others] = process.argv.slice(2);
 
-/** What the doctor says of a model. */
-function diagnosis(text, engine = "mujoco") {
+/** What the doctor says of a model. @param more flags */
+function diagnosis(text, engine = "mujoco", more = ["--no-runs"]) {
   return inFolder((folder) => {
     const [model, json] = [join(folder, "model.xml"), join(folder, "diagnosis.json")];
     writeFileSync(model, text);
-    const flags = ["--engine", engine, "--no-runs", "--json", json];
+    const flags = ["--engine", engine, ...more, "--json", json];
     const { status, stderr } = spawnSync(program, ["doctor", model, ...flags], { encoding: "utf8" });
     assert.ok(status >= 0 && status <= 2, stderr);
     return JSON.parse(readFileSync(json, "utf8"));
@@ -93,5 +93,19 @@ for (const { name, text } of others.length > 0 ? [] : models) {
     }
     longest.sort((a, b) => b.step - a.step);
     if (longest.length > 0) assert.equal(longest[0].joint, named);
+  });
+}
+
+for (const { name, text } of others.length > 0 ? [] : moving) {
+  test(`${name}: the step is MuJoCo's`, async () => {
+    const found = diagnosis(text, "mujoco", ["--step", "0.001"]);
+    const measured = await measure(text, found.largest_step);
+    figures(name, found.largest_step, measured);
+    assert.ok(Math.abs(measured.step / found.largest_step - 1) < 0.05,
+      `${measured.step} s instead of ${found.largest_step} s`);
+    // What is said to hold holds.
+    const half = diagnosis(text, "mujoco", ["--step", `${0.5 * found.largest_step}`]);
+    assert.equal(half.verdict, "holds");
+    assert.equal(half.runs.at(-1).holds, true);
   });
 }

@@ -115,6 +115,11 @@ export class Oracle {
       ...combine(solids.filter(({ mass }) => mass > 0)),
     }));
   }
+  /** Names of its bodies, but for the world. */
+  bodyNames() {
+    const kind = mujoco.mjtObj.mjOBJ_BODY.value;
+    return Array.from({ length: this.model.nbody - 1 }, (_, i) => mujoco.mj_id2name(this.model, kind, i + 1));
+  }
   /** @param integrator its name in MuJoCo, in capital letters */
   integrate(integrator) {
     this.model.opt.integrator = mujoco.mjtIntegrator[`mjINT_${integrator}`].value;

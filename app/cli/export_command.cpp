@@ -66,7 +66,7 @@ void add_export(CLI::App& app, int& exit_code) {
       "velocities of the start are those of the keyframe 'start'.\n"
       "Examples:\n"
       "  substep export whirling_chain --out whirling_chain.xml\n"
-      "  substep export my_robot.json --strict | substep import -");
+      "  substep export whirling_chain --strict | substep import -");
   command->callback([options, &exit_code] { exit_code = export_scene(*options); });
 }
 

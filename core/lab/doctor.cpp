@@ -7,6 +7,7 @@
 
 #include "core/lab/experiment.hpp"
 #include "core/lab/shadow_energy.hpp"
+#include "core/lab/velocity_forces.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/math/random.hpp"
 #include "core/model/format_text.hpp"
@@ -541,12 +542,29 @@ class Doctor {
     path_ = path_of(scene, explicit_settings(), scene_->frame, question_.budget, &*d.at_step,
                     question_.seconds, question_.step / d.step);
     d.at_step->what = "after a shake, with this step";
+    if (const auto rise = rise_of(*shaken_, question_.step)) {
+      d.findings.push_back({true, rise_text(*rise)});
+    }
     Settings fine;
     fine.mode = Mode::kConst;
     const double short_step = std::min(question_.step, d.step) / 16.0;
     fine.n = static_cast<int>(std::clamp(std::ceil(scene_->frame / short_step), 16.0, 512.0));
     fine_ = path_of(shaken_, fine, scene_->frame, question_.budget, nullptr,
                     std::min(kCompared, question_.seconds), 0.0);
+  }
+
+  /// The gain of energy by what the engine treats explicitly besides; nothing if it is small or is
+  /// not known.
+  [[nodiscard]] std::optional<EnergyRise> rise_of(const Scene& scene, double step) const {
+    if (!question_.engine->explicit_velocities) return std::nullopt;
+    return rise_by_velocity_forces(scene, step, question_.seconds);
+  }
+  static std::string rise_text(const EnergyRise& rise) {
+    return format_text(
+        "gyroscopic and Coriolis forces, which MuJoCo treats explicitly, raise the energy by %.3g "
+        "J "
+        "> %.3g J within %.3g s",
+        rise.rise, rise.limit, rise.time);
   }
 
   void judge() {
@@ -575,6 +593,11 @@ class Doctor {
                               question_.seconds, scene->frame / foretold);
     tried.holds = run.holds;
     if (run.holds && run.by_shadow) tried.gain = run.gain;
+    const bool is_engines = std::isfinite(foretold);  // not a method of substep
+    if (const auto rise = is_engines ? rise_of(*scene, scene->frame) : std::nullopt) {
+      tried.holds = false;
+      tried.verdict = "fails: " + rise_text(*rise);
+    }
     tried.verdict = run.verdict;
     tried.operations = run.operations;
     const double unchanged = diagnosis_.at_step->operations;

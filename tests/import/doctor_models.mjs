@@ -89,3 +89,10 @@ export const moving = [
   rods("eight rods on ball joints that swing", 8, 30),
   rods("ten rods on ball joints that swing", 10, 20),
 ];
+
+/** They move so fast that MuJoCo's explicit gyroscopic and Coriolis forces raise their energy. */
+export const fast = [
+  rods("three rods on ball joints, fast", 3, 45),
+  rods("five rods on ball joints, fast", 5, 45),
+  rods("eight rods on ball joints, fast", 8, 45),
+];

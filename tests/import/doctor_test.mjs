@@ -8,7 +8,7 @@ import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import test from "node:test";
-import { models, moving } from "./doctor_models.mjs";
+import { fast, models, moving } from "./doctor_models.mjs";
 import { inFolder, Oracle, whole, withoutFiles } from "./mujoco.mjs";
 
 const [program, ...others] = process.argv.slice(2);
@@ -107,5 +107,26 @@ for (const { name, text } of others.length > 0 ? [] : moving) {
     const half = diagnosis(text, "mujoco", ["--step", `${0.5 * found.largest_step}`]);
     assert.equal(half.verdict, "holds");
     assert.equal(half.runs.at(-1).holds, true);
+  });
+}
+
+for (const { name, text } of others.length > 0 ? [] : fast) {
+  test(`${name}: a step that holds keeps MuJoCo's energy`, async () => {
+    const oracle = await Oracle.of(text.replace("<flag ", '<flag energy="enable" '));
+    oracle.integrate("EULER");
+    // Of the energy that falls: mass and length of the chain, at 45 degrees.
+    const count = (text.match(/<body/g) ?? []).length;
+    const scale = count * 9.81 * 0.15 * count;
+    const seen = [];
+    for (const step of [0.002, 0.005, 0.01, 0.02, 0.03]) {
+      const { verdict } = diagnosis(text, "mujoco", ["--step", `${step}`]);
+      const means = oracle.meanEnergies(step, 5);
+      const rise = (Math.max(...means) - means[0]) / scale;
+      seen.push(`${step} s: ${verdict}, energy of MuJoCo +${(100 * rise).toFixed(1)} %`);
+      if (verdict === "holds") assert.ok(rise < 0.15, seen.at(-1));
+      if (rise > 0.3) assert.equal(verdict, "fails", seen.at(-1));
+    }
+    console.log(name, seen.join("; "));
+    oracle.free();
   });
 }

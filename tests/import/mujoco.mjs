@@ -143,6 +143,20 @@ export class Oracle {
     }
     return Infinity;
   }
+  /** Mean energies of every second of a run [J]; the model has the flag `energy`. */
+  meanEnergies(step, seconds) {
+    const means = [];
+    this.restart(step);
+    for (let second = 1; second <= seconds; ++second) {
+      let [sum, count] = [0, 0];
+      for (; this.data.time < second - 0.5 * step; ++count) {
+        mujoco.mj_step(this.model, this.data);
+        sum += this.data.energy[0] + this.data.energy[1];
+      }
+      means.push(sum / count);
+    }
+    return means;
+  }
   /** Frees its memory. */
   free() {
     this.data.delete();

@@ -134,6 +134,34 @@ TEST(Doctor, RunsOfChainsOfBallJointsHoldBelowTheLargestStep) {
   }
 }
 
+// What moves fast gains energy by forces that MuJoCo treats explicitly, at any step: it is said,
+// for MuJoCo alone, and the shorter step that is offered is short enough.
+TEST(Doctor, TellsTheGainByForcesThatMuJoCoTreatsExplicitly) {
+  const auto ask = [](double angle, double step, const char* engine) {
+    DoctorQuestion question;
+    question.engine = engine_of(engine);
+    question.seconds = 5.0;
+    question.step = step;
+    return diagnose(std::make_shared<const Scene>(rods_on_balls(angle)), question);
+  };
+  const auto tells = [](const Diagnosis& d) {
+    return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& finding) {
+      return finding.fails && finding.text.find("Coriolis") != std::string::npos;
+    });
+  };
+  const Diagnosis fast = ask(0.8, 0.02, "mujoco");
+  EXPECT_GT(fast.step, 1.4 * 0.02) << "the linearised motion allows it";
+  EXPECT_TRUE(tells(fast));
+  EXPECT_EQ(fast.verdict, Diagnosis::Verdict::kFails);
+  EXPECT_TRUE(tells(ask(0.8, 0.02, "mujoco-implicitfast")));
+  EXPECT_FALSE(tells(ask(0.8, 0.02, "substep")));
+  EXPECT_EQ(ask(0.2, 0.02, "mujoco").verdict, Diagnosis::Verdict::kHolds);
+  const auto shorter = std::find_if(fast.remedies.begin(), fast.remedies.end(),
+                                    [](const TriedRemedy& of) { return of.shorter && of.holds; });
+  ASSERT_NE(shorter, fast.remedies.end());
+  EXPECT_FALSE(tells(ask(0.8, shorter->shorter, "mujoco")));
+}
+
 // The limit itself, in runs that need no verdict: small motions of the chain stay small for 2,000
 // steps below it and grow without bound above it.
 TEST(Doctor, StepOfAChainOfBallJointsIsTheLimitOfItsRun) {

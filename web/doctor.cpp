@@ -121,7 +121,8 @@ EMSCRIPTEN_KEEPALIVE const char* substep_doctor_scene() {
 /// Its run after the doctor's shake with a step, as the file of a scene. @param step [s]
 EMSCRIPTEN_KEEPALIVE const char* substep_doctor_run(double step) {
   if (!patient.scene || !substep::kStepRange.contains(step)) return keep_text("");
-  return keep_text(substep::write_scene(substep::scene_at_step(*patient.scene, step)));
+  const double gain = patient.diagnosis ? substep::gain_of(*patient.diagnosis, step) : 0.0;
+  return keep_text(substep::write_scene(substep::scene_at_step(*patient.scene, step, gain)));
 }
 
 /// The model that a remedy of the last diagnosis makes, as the file of a scene. "" if it does not

@@ -29,6 +29,7 @@ void add_hash(CLI::App& app, int& exit_code);
 void add_scenes(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
+void add_export(CLI::App& app, int& exit_code);
 void add_map(CLI::App& app, int& exit_code);
 
 /// Runs experiments, one JSON object per line, and prints one result per line as each completes.

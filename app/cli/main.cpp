@@ -60,7 +60,7 @@ int parse_and_run(int argc, char** argv) {
   int exit_code = kOk;
   for (const auto add :
        {add_run, add_sweep, add_cost, add_recommend, add_doctor, add_merge, add_reproduce,
-        add_check, add_exam, add_hash, add_scenes, add_generate, add_import, add_map}) {
+        add_check, add_exam, add_hash, add_scenes, add_generate, add_import, add_export, add_map}) {
     add(app, exit_code);
   }
   if (argc > 1 && !knows_command(app, argv[1])) return kBadInput;

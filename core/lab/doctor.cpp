@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/lab/experiment.hpp"
+#include "core/lab/shadow_energy.hpp"
+#include "core/lab/velocity_forces.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/math/random.hpp"
 #include "core/model/format_text.hpp"
@@ -172,23 +174,76 @@ Scene shaken(const Scene& scene) {
   return out;
 }
 
-/// A run frame by frame. @param each called after every frame
+/// Judges a run of one step per frame below its limit by the energy that the scheme keeps, and by
+/// what it lends: the true energy swings there, the more the closer the step is to the limit.
+class ShadowVerdict {
+ public:
+  /// @param share of the limit [-]
+  ShadowVerdict(const Scene& scene, const Simulator& simulator, double share)
+      : energy_(scene, simulator.state(), simulator.observe()), share_(share) {}
+
+  void add(const Scene& scene, const State& state, const FrameReport& report,
+           std::optional<Verdict>& verdict) {
+    if (report.status != StepStatus::kOk) {
+      verdict->add(scene, state, report);
+      return;
+    }
+    const FrameReport before = energy_.add(scene, state, report);
+    if (is_first_) {
+      verdict.emplace(scene, state, before);
+    } else {
+      verdict->add(scene, state, before);
+    }
+    is_first_ = false;
+    constexpr double kAtFirst = 0.5;  // [s] while the motion's energy is still small
+    if (report.time >= kAtFirst) judge(report.time);
+  }
+  /// At the end of the run, or during it.
+  void judge(double time) {
+    if (why_.empty() && energy_.lends_too_much(share_)) {
+      why_ = format_text("fails at %.3f s: oscillations grow, by %.4g J", time, energy_.lent());
+    }
+  }
+  /// Why it fails; empty if it does not.
+  [[nodiscard]] const std::string& why() const { return why_; }
+
+ private:
+  ShadowEnergy energy_;
+  double share_;
+  bool is_first_ = true;
+  std::string why_;
+};
+
+/// A run frame by frame. @param share of the limit that its step is, if it takes one per frame and
+/// is below [-]; else 0 @param each called after every frame
 template <class Each>
 DoctorRun followed(const std::shared_ptr<const Scene>& scene, const Settings& settings,
-                   double seconds, const Budget& budget, Each&& each) {
+                   double seconds, const Budget& budget, double share, Each&& each) {
   DoctorRun run;
   run.seconds = seconds;
   Simulator simulator(scene);
   simulator.set_settings(settings);
   simulator.set_budget(budget);
   simulator.set_measures({.stages = false});
-  Verdict verdict(*scene, simulator.state(), simulator.observe());
+  const FrameReport start = simulator.observe();
+  std::optional<Verdict> verdict(std::in_place, *scene, simulator.state(), start);
+  std::optional<ShadowVerdict> shadow;
+  const bool has_criteria = scene->criteria.energy_gain || scene->criteria.displacement;
+  if (share > 0.0 && share < 1.0 && !has_criteria && ShadowEnergy::applies(*scene)) {
+    shadow.emplace(*scene, simulator, share);
+  }
+  run.by_shadow = shadow.has_value();
   const std::int64_t frames = std::max<std::int64_t>(1, frames_of(*scene, seconds));
   double flops = 0.0;
   double smallest = kNoLimit;
   for (std::int64_t i = 0; i < frames; ++i) {
     const FrameReport report = simulator.step();
-    verdict.add(*scene, simulator.state(), report);
+    if (shadow) {
+      shadow->add(*scene, simulator.state(), report, verdict);
+    } else {
+      verdict->add(*scene, simulator.state(), report);
+    }
+    run.gain = std::max(run.gain, report.energy - start.energy);
     flops += static_cast<double>(report.work.flops);
     const double step = step_of_criterion(report.r_stiffness);
     run.criterion.push_back(step);
@@ -197,11 +252,17 @@ DoctorRun followed(const std::shared_ptr<const Scene>& scene, const Settings& se
       run.leader = report.leader.body;
       run.leader_time = report.time;
     }
-    if (report.status != StepStatus::kOk || !verdict.holds()) break;
+    if (report.status != StepStatus::kOk || !verdict->holds()) break;
+    if (shadow && !shadow->why().empty()) break;
     each(simulator, step == smallest);
   }
-  run.holds = verdict.holds();
-  run.verdict = verdict.text();
+  run.holds = verdict->holds();
+  run.verdict = verdict->text();
+  if (shadow && run.holds) {
+    shadow->judge(simulator.state().time);
+    run.holds = shadow->why().empty();
+    if (!run.holds) run.verdict = shadow->why();
+  }
   run.operations = flops / std::max(simulator.state().time, scene->frame);
   return run;
 }
@@ -246,7 +307,7 @@ DoctorRun analysed_run(const char* what, const std::shared_ptr<const Scene>& sce
     }
   };
   analyse(start_of_run(*scene).state);
-  DoctorRun run = followed(scene, settings, question.seconds, question.budget,
+  DoctorRun run = followed(scene, settings, question.seconds, question.budget, 0.0,
                            [&](const Simulator& simulator, bool peak) {
                              if (peak) at_peak = synchronised(simulator.state());
                              if (simulator.state().frame % each_nth == 0) {
@@ -267,31 +328,35 @@ std::shared_ptr<const Scene> at_step(Scene scene, double step) {
   return std::make_shared<const Scene>(std::move(scene));
 }
 
+// Joints close exactly, as in engines with joint coordinates: the paper's drift law feeds gaps back
+// into velocities, and drives chains of ball joints at a third of their largest step.
 Settings explicit_settings() {
   Settings settings = kPaperSettings;
   settings.mode = Mode::kConst;
   settings.n = 1;
+  settings.drift = Drift::kExact;
   return settings;
 }
 
 constexpr double kCompared = 1.0;  // time in which paths are compared [s]
 
-/// Positions of a run at multiples of a time, interpolated. @param every [s]
+/// Positions of a run at multiples of a time, interpolated. @param every [s] @param share that of
+/// followed()
 std::vector<std::vector<Vec3>> path_of(const std::shared_ptr<const Scene>& scene,
                                        const Settings& settings, double every, const Budget& budget,
-                                       DoctorRun* run, double seconds) {
+                                       DoctorRun* run, double seconds, double share) {
   std::vector<std::vector<Vec3>> path;
   double next = every;
   double before = 0.0;
   std::vector<Vec3> x_before = initial_state(*scene).x;
   DoctorRun done =
-      followed(scene, settings, seconds, budget, [&](const Simulator& simulator, bool) {
+      followed(scene, settings, seconds, budget, share, [&](const Simulator& simulator, bool) {
         const State& state = simulator.state();
         for (; next <= state.time + 1e-9 * every && next <= kCompared; next += every) {
-          const double share = (next - before) / (state.time - before);
+          const double passed = (next - before) / (state.time - before);
           std::vector<Vec3>& x = path.emplace_back(state.x);
           for (std::size_t i = 0; i < x.size(); ++i) {
-            x[i] = share * state.x[i] + (1.0 - share) * x_before[i];
+            x[i] = passed * state.x[i] + (1.0 - passed) * x_before[i];
           }
         }
         before = state.time;
@@ -367,6 +432,9 @@ class Doctor {
       }
     }
     d.findings = static_findings(*scene_, start);
+    if (!question_.runs && !models_.empty()) {
+      d.findings.push_back({false, "only the start was analysed: its motion may need less"});
+    }
     if (question_.runs) {
       d.runs.push_back(analysed_run("from its start", scene_, question_, narrowest_));
       shaken_ = std::make_shared<const Scene>(shaken(*scene_));
@@ -472,14 +540,31 @@ class Doctor {
     Diagnosis& d = diagnosis_;
     d.at_step.emplace();
     path_ = path_of(scene, explicit_settings(), scene_->frame, question_.budget, &*d.at_step,
-                    question_.seconds);
+                    question_.seconds, question_.step / d.step);
     d.at_step->what = "after a shake, with this step";
+    if (const auto rise = rise_of(*shaken_, question_.step)) {
+      d.findings.push_back({true, rise_text(*rise)});
+    }
     Settings fine;
     fine.mode = Mode::kConst;
     const double short_step = std::min(question_.step, d.step) / 16.0;
     fine.n = static_cast<int>(std::clamp(std::ceil(scene_->frame / short_step), 16.0, 512.0));
     fine_ = path_of(shaken_, fine, scene_->frame, question_.budget, nullptr,
-                    std::min(kCompared, question_.seconds));
+                    std::min(kCompared, question_.seconds), 0.0);
+  }
+
+  /// The gain of energy by what the engine treats explicitly besides; nothing if it is small or is
+  /// not known.
+  [[nodiscard]] std::optional<EnergyRise> rise_of(const Scene& scene, double step) const {
+    if (!question_.engine->explicit_velocities) return std::nullopt;
+    return rise_by_velocity_forces(scene, step, question_.seconds);
+  }
+  static std::string rise_text(const EnergyRise& rise) {
+    return format_text(
+        "gyroscopic and Coriolis forces, which MuJoCo treats explicitly, raise the energy by %.3g "
+        "J "
+        "> %.3g J within %.3g s",
+        rise.rise, rise.limit, rise.time);
   }
 
   void judge() {
@@ -504,9 +589,15 @@ class Doctor {
     tried.text = text;
     tried.step = foretold;
     DoctorRun run;
-    const auto path =
-        path_of(scene, settings, scene_->frame, question_.budget, &run, question_.seconds);
+    const auto path = path_of(scene, settings, scene_->frame, question_.budget, &run,
+                              question_.seconds, scene->frame / foretold);
     tried.holds = run.holds;
+    if (run.holds && run.by_shadow) tried.gain = run.gain;
+    const bool is_engines = std::isfinite(foretold);  // not a method of substep
+    if (const auto rise = is_engines ? rise_of(*scene, scene->frame) : std::nullopt) {
+      tried.holds = false;
+      tried.verdict = "fails: " + rise_text(*rise);
+    }
     tried.verdict = run.verdict;
     tried.operations = run.operations;
     const double unchanged = diagnosis_.at_step->operations;
@@ -544,7 +635,7 @@ class Doctor {
   /// their runs.
   void try_other_methods() {
     const auto as_asked = at_step(*shaken_, question_.step);
-    Settings damping = explicit_settings();
+    Settings damping = kPaperSettings;
     damping.mode = Mode::kDamping;
     try_remedy("the paper's damping at this step", as_asked, damping, kNoLimit);
     Settings newton = explicit_settings();
@@ -717,12 +808,24 @@ std::vector<Finding> static_findings(const Scene& scene, const State& state) {
   return findings;
 }
 
-Scene scene_at_step(const Scene& scene, double step) {
+Scene scene_at_step(const Scene& scene, double step, double gain) {
   Scene out = shaken(scene);
   out.frame = step;
+  if (gain > 0.0) out.criteria.energy_gain = gain;
   out.settings = explicit_settings();
   out.recommended.reset();
   return out;
+}
+
+double gain_of(const Diagnosis& diagnosis, double step) {
+  constexpr double kRounding = 1e-9;
+  double gain = 0.0;
+  const auto& run = diagnosis.at_step;
+  if (run && run->holds && run->by_shadow && step == diagnosis.question.step) gain = run->gain;
+  for (const TriedRemedy& tried : diagnosis.remedies) {
+    if (tried.shorter == step) gain = tried.gain;
+  }
+  return gain * (1.0 + kRounding);
 }
 
 Diagnosis diagnose(std::shared_ptr<const Scene> scene, const DoctorQuestion& question) {

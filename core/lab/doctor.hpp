@@ -78,6 +78,8 @@ struct DoctorRun {
   std::string verdict;
   double seconds = 0.0;           // [s]
   double operations = 0.0;        // of the solver, per second of the model
+  double gain = 0.0;              // largest rise of the energy over that of the start [J]
+  bool by_shadow = false;         // judged by the energy that the scheme keeps, ShadowEnergy
   std::vector<double> criterion;  // 2/sqrt(r) after each frame [s]
   int leader = -1;                // body that determines the smallest of them
   double leader_time = 0.0;       // [s]
@@ -94,6 +96,7 @@ struct TriedRemedy {
   double cost = 1.0;        // of them, relative to the run with the asked step [-]
   double moved = 0.0;       // largest distance of a body from a fine run of the model [m]
   double shorter = 0.0;     // the step, if it is another [s]; else 0
+  double gain = 0.0;        // DoctorRun::gain, if the run holds by its shadow energy [J]; else 0
   std::shared_ptr<const Scene> changed;  // the model, if it is another; else null
 };
 
@@ -121,8 +124,12 @@ struct Diagnosis {
 Diagnosis diagnose(std::shared_ptr<const Scene> scene, const DoctorQuestion& question);
 
 /// The run that Diagnosis::at_step judges, with its settings: the scene after the doctor's shake,
-/// in frames of the step that the paper's scheme takes at once. @param step [s]
-Scene scene_at_step(const Scene& scene, double step);
+/// in frames of the step that the paper's scheme takes at once. @param step [s] @param gain that
+/// the energy is allowed, 0: as the scene says [J]
+Scene scene_at_step(const Scene& scene, double step, double gain = 0.0);
+
+/// The gain for scene_at_step() with which a window judges a run as the doctor did [J].
+double gain_of(const Diagnosis& diagnosis, double step);
 
 /// The static checks alone.
 std::vector<Finding> static_findings(const Scene& scene, const State& state);

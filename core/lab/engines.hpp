@@ -20,15 +20,17 @@ struct Engine {
   bool assumed;       // the treatment of drives is the safe assumption, not what the engine says
   const char* step;   // what its users set; %1 is the step, %2 their number in a frame
   bool damps_springs = false;  // the damping of springs is implicit, whatever that of drives is
+  bool explicit_velocities = false;  // gyroscopic and Coriolis forces are known to be explicit
 };
 
 inline constexpr std::array kEngines{
     Engine{"substep", "substep", Treated::kImplicit, Treated::kImplicit, false,
-           "mode const with n = %2, or adaptive with alpha = 1"},
+           "drift exact; mode const with n = %2, or adaptive with alpha = 1"},
     Engine{"mujoco", "MuJoCo, integrator Euler", Treated::kExplicit, Treated::kExplicit, false,
-           "option timestep=\"%1\"", true},
+           "option timestep=\"%1\"", true, true},
     Engine{"mujoco-implicitfast", "MuJoCo, integrator implicitfast", Treated::kExplicit,
-           Treated::kImplicit, false, "option timestep=\"%1\" integrator=\"implicitfast\""},
+           Treated::kImplicit, false, "option timestep=\"%1\" integrator=\"implicitfast\"", false,
+           true},
     Engine{"mujoco-discrete", "MuJoCo, integrator discrete", Treated::kImplicit, Treated::kImplicit,
            false, "option timestep=\"%1\" integrator=\"discrete\""},
     Engine{"drake", "Drake, discrete", Treated::kImplicit, Treated::kImplicit, false,

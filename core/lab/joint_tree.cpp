@@ -127,6 +127,58 @@ double JointTree::attempt(double most) {
   return step;
 }
 
+// The rate of a ball joint in its own frame is w = R^T (omega - omega_p), so
+// w' = R^T (alpha - alpha_p + omega x omega_p). That of a free body has no parent.
+void JointTree::step_semi_implicit(double h) {
+  struct After {
+    Quat q_WB = Quat::Identity();
+    Vec3 omega = Vec3::Zero();
+  };
+  std::vector<After> after(nodes_.size());
+  const auto turned = [&](const Quat& q, const Vec3& omega_B) {
+    const Vec3 half = 0.5 * h * omega_B;
+    return (q * Quat(1.0, half.x(), half.y(), half.z())).normalized();
+  };
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    const Motion& m = motion_[i];
+    const Motion& before = parent_of(node);
+    const After& parent = node.parent == kWorld ? After{} : after[index(node.parent)];
+    if (node.kind == Kind::kHinge) {
+      const double rate = y_[node.u] += h * dy_[node.u];
+      const double half = 0.5 * h * rate;
+      const double c = y_[node.q];
+      const double s = y_[node.q + 1];
+      y_[node.q] = c - half * s;
+      y_[node.q + 1] = s + half * c;
+      y_.segment<2>(node.q).normalize();
+      const Vec3 axis = y_[node.q + 1] * node.axis;
+      after[i].q_WB = parent.q_WB * node.at_start * Quat(y_[node.q], axis.x(), axis.y(), axis.z());
+      after[i].omega = parent.omega + rate * (after[i].q_WB * node.axis);
+      continue;
+    }
+    const bool is_free = node.kind == Kind::kFree;
+    const Vec3 omega_p = is_free ? Vec3(Vec3::Zero()) : before.omega;
+    const Vec3 alpha_p = is_free ? Vec3(Vec3::Zero()) : before.alpha;
+    const Vec3 rate = m.q_WB.conjugate() * Vec3(m.omega - omega_p) +
+                      h * (m.q_WB.conjugate() * Vec3(m.alpha - alpha_p + m.omega.cross(omega_p)));
+    const Quat in_parent = is_free ? m.q_WB : Quat(before.q_WB.conjugate() * m.q_WB);
+    const Quat moved = turned(in_parent, rate);
+    after[i].q_WB = is_free ? moved : Quat(parent.q_WB * moved);
+    after[i].omega = after[i].q_WB * rate;
+    if (!is_free) after[i].omega += parent.omega;
+    if (is_free) {
+      y_.segment<3>(node.u) += h * dy_.segment<3>(node.u);
+      y_.segment<3>(node.q) += h * y_.segment<3>(node.u);
+    }
+    const Eigen::Index offset = is_free ? 3 : 0;
+    const Quat& q = after[i].q_WB;
+    y_.segment<4>(node.q + offset) << q.w(), q.x(), q.y(), q.z();
+    y_.segment<3>(node.u + offset) = after[i].omega;
+  }
+  slope(y_, dy_);
+}
+
 void JointTree::advance(double seconds) {
   double left = seconds;
   while (left > Extrapolation::kRounding * seconds) left -= attempt(left);
@@ -172,6 +224,14 @@ double JointTree::kinetic() const {
     if (nodes_[i].armature == 0.0) continue;
     const double rate = m.h.dot(m.omega - parent_of(nodes_[i]).omega);
     energy += 0.5 * nodes_[i].armature * rate * rate;
+  }
+  return energy;
+}
+
+double JointTree::potential() const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    energy -= nodes_[i].mass * gravity_.dot(motion_[i].p + motion_[i].r);
   }
   return energy;
 }

@@ -39,6 +39,11 @@ class JointTree {
   /// @param most [s] @return time advanced, 0 <= . <= most [s]
   double attempt(double most);
 
+  /// One step as MuJoCo takes it: semi-implicit Euler in the rates of hinges and in those of ball
+  /// joints relative to their parents, in their own frames. Forces by velocities are explicit.
+  /// Rotations are Cayley maps. @param h [s]
+  void step_semi_implicit(double h);
+
   /// Centre of a body of the scene, world [m].
   [[nodiscard]] Vec3 centre(int body) const;
   /// q_WB of a body of the scene.
@@ -48,7 +53,8 @@ class JointTree {
   /// Force at the centre and torque about it with which the joint nearest to the root acts on a
   /// body, world [N, N m]; the joint's own point is not the centre. Zero for a free body.
   [[nodiscard]] Vec6 reaction(int body) const;
-  [[nodiscard]] double kinetic() const;  ///< [J]
+  [[nodiscard]] double kinetic() const;    ///< [J]
+  [[nodiscard]] double potential() const;  ///< of gravity, zero at the world's origin [J]
   /// At most how far the compliances of all joints open under the weights and the forces now [m].
   [[nodiscard]] double stretch() const;
   /// Length of all arms between joints and centres [m].

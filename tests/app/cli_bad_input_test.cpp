@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"UnknownCommand", "chek",
                 "no command is called chek (did you mean \"check\"?)\n"
                 "Commands: run sweep cost recommend doctor merge reproduce check exam hash scenes "
-                "generate import map\n"},
+                "generate import export map\n"},
         BadCall{"JobsZero", "sweep pendulum --jobs 0",
                 "--jobs: must be a whole number from 1 to 1024, not 0"},
         BadCall{"ErrorOfNoKind", "recommend pendulum --of speed",
@@ -72,6 +72,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "--joints: standard output is already used by --states"},
         BadCall{"StatesInNoFolder", "run bridge --frames 1 --states /no/such/folder/a.csv",
                 "/no/such/folder/a.csv: No such file or directory"},
+        BadCall{"ExportOfNoScene", "export brigde",
+                "brigde: no such scene or file (did you mean \"bridge\"?)"},
+        BadCall{"ExportInNoFolder", "export pendulum --out /no/such/folder/a.xml",
+                "/no/such/folder/a.xml: No such file or directory"},
+        BadCall{"ExportOfNothing", "export", "scene is required"},
         BadCall{"UnknownScene", "run brigde",
                 "brigde: no such scene or file (did you mean \"bridge\"?)"},
         BadCall{"SceneIsAFolder", "run /", "/: cannot read /: "},

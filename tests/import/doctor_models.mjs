@@ -23,6 +23,15 @@ function nested(count, step, link) {
 const hanging = (name, count, length, mass, load) => model(name, "", nested(count, `0 0 ${-length}`,
   (i) => `<joint type="ball"/>${sphere(i === count - 1 ? load : mass, 0.02, `0 0 ${-length}`)}`));
 
+/**
+ * Rods on ball joints, turned out of the vertical about two axes; each is free to spin about itself.
+ * @param angle of the first one [degrees]
+ */
+const rods = (name, count, angle, load = 1) => model(name, "", nested(count, "0 0 -0.3", (i) =>
+  `<joint type="ball"/><geom type="box" size="0.02 0.02 0.15" mass="${i === count - 1 ? load : 1}"
+    pos="0 0 -0.15"/>`).replace('pos="0 0 0"',
+  `pos="0 0 0" euler="${angle * Math.PI / 180} ${angle * Math.PI / 360} 0"`));
+
 const position = (joint, kp, kv = 0) =>
   `<position joint="${joint}" kp="${kp}"${kv > 0 ? ` kv="${kv}"` : ""}/>`;
 const actuators = (text) => `<actuator>${text}</actuator>`;
@@ -31,6 +40,9 @@ const actuators = (text) => `<actuator>${text}</actuator>`;
 export const models = [
   hanging("chain of ten", 10, 0.1, 0.1, 0.1),
   hanging("load of 50 kg on a chain of ten", 10, 0.1, 0.1, 50),
+  rods("five rods on ball joints", 5, 0),
+  rods("eight rods on ball joints, displaced", 8, 5),
+  rods("ten rods on ball joints with a load of 20 kg", 10, 0, 20),
   model("swing of a heavy load", "", nested(2, "0 0 -0.5", (i) => `<joint type="hinge" axis="0 1 0"/>
     ${sphere(i === 0 ? 0.05 : 20, 0.03, "0 0 -0.5")}`)),
   model("arm of five on stiff drives", "", nested(5, "0.3 0 0", (i) =>
@@ -69,4 +81,18 @@ export const models = [
     ${rod(0.5, 1)}<body pos="0.5 0 0"><joint name="elbow" type="hinge" axis="0 1 0"/>${rod(0.4, 0.5)}
     <body pos="0.4 0 0"><joint type="ball"/>${sphere(15, 0.05, "0 0 -0.3")}</body></body></body>`,
   actuators(position("shoulder", 8000, 40) + position("elbow", 5000, 20))),
+];
+
+/** They swing from their start: the limit is that of their runs. */
+export const moving = [
+  rods("five rods on ball joints that swing", 5, 20),
+  rods("eight rods on ball joints that swing", 8, 30),
+  rods("ten rods on ball joints that swing", 10, 20),
+];
+
+/** They move so fast that MuJoCo's explicit gyroscopic and Coriolis forces raise their energy. */
+export const fast = [
+  rods("three rods on ball joints, fast", 3, 45),
+  rods("five rods on ball joints, fast", 5, 45),
+  rods("eight rods on ball joints, fast", 8, 45),
 ];

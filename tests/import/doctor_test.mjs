@@ -8,17 +8,17 @@ import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import test from "node:test";
-import { models } from "./doctor_models.mjs";
+import { fast, models, moving } from "./doctor_models.mjs";
 import { inFolder, Oracle, whole, withoutFiles } from "./mujoco.mjs";
 
 const [program, ...others] = process.argv.slice(2);
 
-/** What the doctor says of a model. */
-function diagnosis(text, engine = "mujoco") {
+/** What the doctor says of a model. @param more flags */
+function diagnosis(text, engine = "mujoco", more = ["--no-runs"]) {
   return inFolder((folder) => {
     const [model, json] = [join(folder, "model.xml"), join(folder, "diagnosis.json")];
     writeFileSync(model, text);
-    const flags = ["--engine", engine, "--no-runs", "--json", json];
+    const flags = ["--engine", engine, ...more, "--json", json];
     const { status, stderr } = spawnSync(program, ["doctor", model, ...flags], { encoding: "utf8" });
     assert.ok(status >= 0 && status <= 2, stderr);
     return JSON.parse(readFileSync(json, "utf8"));
@@ -93,5 +93,40 @@ for (const { name, text } of others.length > 0 ? [] : models) {
     }
     longest.sort((a, b) => b.step - a.step);
     if (longest.length > 0) assert.equal(longest[0].joint, named);
+  });
+}
+
+for (const { name, text } of others.length > 0 ? [] : moving) {
+  test(`${name}: the step is MuJoCo's`, async () => {
+    const found = diagnosis(text, "mujoco", ["--step", "0.001"]);
+    const measured = await measure(text, found.largest_step);
+    figures(name, found.largest_step, measured);
+    assert.ok(Math.abs(measured.step / found.largest_step - 1) < 0.05,
+      `${measured.step} s instead of ${found.largest_step} s`);
+    // What is said to hold holds.
+    const half = diagnosis(text, "mujoco", ["--step", `${0.5 * found.largest_step}`]);
+    assert.equal(half.verdict, "holds");
+    assert.equal(half.runs.at(-1).holds, true);
+  });
+}
+
+for (const { name, text } of others.length > 0 ? [] : fast) {
+  test(`${name}: a step that holds keeps MuJoCo's energy`, async () => {
+    const oracle = await Oracle.of(text.replace("<flag ", '<flag energy="enable" '));
+    oracle.integrate("EULER");
+    // Of the energy that falls: mass and length of the chain, at 45 degrees.
+    const count = (text.match(/<body/g) ?? []).length;
+    const scale = count * 9.81 * 0.15 * count;
+    const seen = [];
+    for (const step of [0.002, 0.005, 0.01, 0.02, 0.03]) {
+      const { verdict } = diagnosis(text, "mujoco", ["--step", `${step}`]);
+      const means = oracle.meanEnergies(step, 5);
+      const rise = (Math.max(...means) - means[0]) / scale;
+      seen.push(`${step} s: ${verdict}, energy of MuJoCo +${(100 * rise).toFixed(1)} %`);
+      if (verdict === "holds") assert.ok(rise < 0.15, seen.at(-1));
+      if (rise > 0.3) assert.equal(verdict, "fails", seen.at(-1));
+    }
+    console.log(name, seen.join("; "));
+    oracle.free();
   });
 }

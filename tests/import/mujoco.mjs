@@ -115,6 +115,11 @@ export class Oracle {
       ...combine(solids.filter(({ mass }) => mass > 0)),
     }));
   }
+  /** Names of its bodies, but for the world. */
+  bodyNames() {
+    const kind = mujoco.mjtObj.mjOBJ_BODY.value;
+    return Array.from({ length: this.model.nbody - 1 }, (_, i) => mujoco.mj_id2name(this.model, kind, i + 1));
+  }
   /** @param integrator its name in MuJoCo, in capital letters */
   integrate(integrator) {
     this.model.opt.integrator = mujoco.mjtIntegrator[`mjINT_${integrator}`].value;
@@ -137,6 +142,20 @@ export class Oracle {
       if (data.time >= (steps - 0.5) * model.opt.timestep) return most;
     }
     return Infinity;
+  }
+  /** Mean energies of every second of a run [J]; the model has the flag `energy`. */
+  meanEnergies(step, seconds) {
+    const means = [];
+    this.restart(step);
+    for (let second = 1; second <= seconds; ++second) {
+      let [sum, count] = [0, 0];
+      for (; this.data.time < second - 0.5 * step; ++count) {
+        mujoco.mj_step(this.model, this.data);
+        sum += this.data.energy[0] + this.data.energy[1];
+      }
+      means.push(sum / count);
+    }
+    return means;
   }
   /** Frees its memory. */
   free() {

@@ -132,7 +132,7 @@ TEST(DiagnosisText, TheShownRunIsTheJudgedOne) {
     question.step = share * limit;
     question.seconds = 2.0;
     const Diagnosis d = diagnose(std::make_shared<const Scene>(scene), question);
-    const Scene shown = scene_at_step(scene, question.step);
+    const Scene shown = scene_at_step(scene, question.step, gain_of(d, question.step));
     Simulator simulator(std::make_shared<const Scene>(shown));
     Verdict verdict(shown, simulator.state(), simulator.observe());
     for (std::int64_t i = 0; i < frames_of(shown, 2.0) && verdict.holds(); ++i) {

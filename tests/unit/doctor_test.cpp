@@ -95,6 +95,90 @@ TEST(Doctor, ForetellsTheLargestStepOfAHangingChain) {
   }
 }
 
+/// Five rods on ball joints, turned out of the vertical about two axes.
+Scene rods_on_balls(double angle) {
+  SceneBuilder builder("rods on ball joints");
+  const Quat turn(Eigen::AngleAxisd(angle, Vec3::UnitX()) *
+                  Eigen::AngleAxisd(0.5 * angle, Vec3::UnitZ()));
+  int above = kWorld;
+  for (int i = 0; i < 5; ++i) {
+    const auto at = [&](double y) { return Vec3(turn * Vec3(0.0, y, 0.0)); };
+    const int rod = builder.add_body(Box{{0.02, 0.15, 0.02}}, 1.0, at(-0.15 - 0.3 * i));
+    builder.body(rod).orientation = turn;
+    builder.body(rod).collides = false;
+    builder.add_ball_joint(rod, above, at(-0.3 * i));
+    above = rod;
+  }
+  return *builder.build();
+}
+
+// With the paper's drift law the run gained energy at 0.4 of this step: the motion with joints that
+// hold does not. Nearer to the limit the energy swings, which is no reason to fail.
+TEST(Doctor, RunsOfChainsOfBallJointsHoldBelowTheLargestStep) {
+  for (const double angle : {0.0, 0.3, 0.5}) {
+    const auto scene = std::make_shared<const Scene>(rods_on_balls(angle));
+    DoctorQuestion question;
+    question.seconds = 5.0;
+    question.step = 0.001;
+    const double step = diagnose(scene, question).step;
+    for (const double share : {0.4, 0.7, 0.9, 1.05}) {
+      question.step = share * step;
+      const Diagnosis d = diagnose(scene, question);
+      using Verdict = Diagnosis::Verdict;
+      EXPECT_EQ(d.at_step->holds, share < 1.0) << angle << " " << share << d.at_step->verdict;
+      EXPECT_EQ(d.verdict, share > 1.0   ? Verdict::kFails
+                           : share > 0.8 ? Verdict::kHoldsNarrowly
+                                         : Verdict::kHolds)
+          << angle << " " << share;
+    }
+  }
+}
+
+// What moves fast gains energy by forces that MuJoCo treats explicitly, at any step: it is said,
+// for MuJoCo alone, and the shorter step that is offered is short enough.
+TEST(Doctor, TellsTheGainByForcesThatMuJoCoTreatsExplicitly) {
+  const auto ask = [](double angle, double step, const char* engine) {
+    DoctorQuestion question;
+    question.engine = engine_of(engine);
+    question.seconds = 5.0;
+    question.step = step;
+    return diagnose(std::make_shared<const Scene>(rods_on_balls(angle)), question);
+  };
+  const auto tells = [](const Diagnosis& d) {
+    return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& finding) {
+      return finding.fails && finding.text.find("Coriolis") != std::string::npos;
+    });
+  };
+  const Diagnosis fast = ask(0.8, 0.02, "mujoco");
+  EXPECT_GT(fast.step, 1.4 * 0.02) << "the linearised motion allows it";
+  EXPECT_TRUE(tells(fast));
+  EXPECT_EQ(fast.verdict, Diagnosis::Verdict::kFails);
+  EXPECT_TRUE(tells(ask(0.8, 0.02, "mujoco-implicitfast")));
+  EXPECT_FALSE(tells(ask(0.8, 0.02, "substep")));
+  EXPECT_EQ(ask(0.2, 0.02, "mujoco").verdict, Diagnosis::Verdict::kHolds);
+  const auto shorter = std::find_if(fast.remedies.begin(), fast.remedies.end(),
+                                    [](const TriedRemedy& of) { return of.shorter && of.holds; });
+  ASSERT_NE(shorter, fast.remedies.end());
+  EXPECT_FALSE(tells(ask(0.8, shorter->shorter, "mujoco")));
+}
+
+// The limit itself, in runs that need no verdict: small motions of the chain stay small for 2,000
+// steps below it and grow without bound above it.
+TEST(Doctor, StepOfAChainOfBallJointsIsTheLimitOfItsRun) {
+  const Scene scene = rods_on_balls(0.0);
+  const double limit = at_start(scene, 0.01).step;
+  for (const double share : {0.3, 0.6, 0.97, 1.03}) {
+    const Scene run = scene_at_step(scene, share * limit);
+    Simulator simulator(std::make_shared<const Scene>(run));
+    double most = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+      if (simulator.step().status != StepStatus::kOk) break;
+      most = std::max(most, simulator.observe().kinetic);
+    }
+    EXPECT_EQ(most > 0.1, share > 1.0) << share << ": " << most;
+  }
+}
+
 SceneBuilder driven_rod(double stiffness, double damping) {
   SceneBuilder builder("driven rod");
   const int rod = builder.add_body(Box{{0.5, 0.05, 0.05}}, 1.0, {0.5, 0.0, 0.0});

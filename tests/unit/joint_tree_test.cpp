@@ -288,6 +288,29 @@ TEST(JointTree, StaticBodiesAreWorld) {
   EXPECT_EQ(b.velocity(joint.b), Vec6(Vec6::Zero()));
 }
 
+// The steps of MuJoCo, of first order: half the step, half the distance.
+TEST(JointTree, SemiImplicitStepsConvergeToTheExactMotion) {
+  for (const Scene& scene : {branching_tree(), free_tree()}) {
+    JointTree exact = tree_of(scene);
+    exact.advance(0.3);
+    double before = 0.0;
+    for (const int steps : {1000, 2000, 4000}) {
+      JointTree tree = tree_of(scene);
+      for (int i = 0; i < steps; ++i) tree.step_semi_implicit(0.3 / steps);
+      double most = 0.0;
+      for (int i = 0; i < tree.bodies(); ++i) {
+        most = std::max(most, (tree.centre(i) - exact.centre(i)).norm());
+      }
+      EXPECT_LT(most, 0.1);
+      if (before > 0.0) {
+        EXPECT_NEAR(std::log2(before / most), 1.0, 0.1) << scene.name;
+      }
+      before = most;
+      EXPECT_NEAR(tree.potential(), potential(scene, tree), 1e-9 * (1.0 + tree.kinetic()));
+    }
+  }
+}
+
 // The code calls no function but sqrt. A change of the integrator changes these numbers.
 TEST(JointTree, BitsAreTheSameWithEveryCompiler) {
   JointTree tree = tree_of(scenes::whirling_chain());

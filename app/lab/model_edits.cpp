@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <utility>
 
 #include "core/io/body_names.hpp"
+#include "core/io/json_text.hpp"
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/text_places.hpp"
@@ -24,7 +24,32 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kClear = 0.01;  // between a new body and others [m]
 
-Json parsed(const std::string& text) { return Json::parse(text, nullptr, false); }
+Json parsed(const std::string& text) {
+  Problems problems;
+  return parse_json(text, problems).value_or(Json());
+}
+
+/// A member of an object, or null.
+Json* find(Json& object, std::string_view key) {
+  auto* members = object.get_ptr<Json::object_t*>();
+  if (members == nullptr) return nullptr;
+  for (auto& [name, value] : *members) {
+    if (name == key) return &value;
+  }
+  return nullptr;
+}
+
+void drop(Json& object, const char* key) { object.get_ptr<Json::object_t*>()->erase(key); }
+
+void drop(Json& list, std::size_t item) {
+  auto& items = *list.get_ptr<Json::array_t*>();
+  items.erase(items.begin() + static_cast<std::ptrdiff_t>(item));
+}
+
+bool is_text(const Json* value, std::string_view text) {
+  const auto* string = value == nullptr ? nullptr : value->get_ptr<const std::string*>();
+  return string != nullptr && *string == text;
+}
 
 Json vector_of(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
@@ -41,7 +66,7 @@ Json* around(Json& json, std::string_view pointer, std::string& last) {
     pointer.remove_prefix(last.size());
     if (pointer.empty()) break;
     if (at->is_object()) {
-      at = at->contains(last) ? &(*at)[last] : nullptr;
+      at = find(*at, last);
     } else {
       const auto i = parse_integer(last);
       at = at->is_array() && i && *i >= 0 && static_cast<std::size_t>(*i) < at->size()
@@ -78,39 +103,42 @@ std::size_t end_of_value(const std::string& text, std::size_t at) {
 /// Adds effects that the change needs and the text does not list. @param before the change
 std::string with_effects(const std::string& text, const Scene& before) {
   Json json = parsed(text);
-  if (!json.contains("effects")) return text;
+  Json* listed = find(json, "effects");
+  if (listed == nullptr) return text;
   Json bare = json;
-  bare.erase("effects");
-  const auto after = read_scene(bare.dump()).scene;
+  drop(bare, "effects");
+  const auto after = read_scene(json_file(bare)).scene;
   if (after == nullptr) return text;  // its reader says why
   const Effects needed = effects_of(before);
   bool changed = false;
-  Json& listed = json["effects"];
   for (const EffectEntry& effect : kEffects) {
     if (!(after->effects.*effect.member) || needed.*effect.member) continue;
-    if (std::find(listed.begin(), listed.end(), effect.name) != listed.end()) continue;
-    listed.push_back(effect.name);
-    changed = true;
+    bool is_listed = false;
+    for (const Json& name : *listed) is_listed = is_listed || is_text(&name, effect.name);
+    if (!is_listed) listed->push_back(effect.name);
+    changed = changed || !is_listed;
   }
-  return changed ? with_value(text, "/effects", listed) : text;
+  return changed ? with_value(text, "/effects", *listed) : text;
 }
 
 /// The text of a changed document. What a saved run carries has an entry for each body.
 std::string changed_text(Json json, const Scene& before) {
-  json.erase("carried");
+  drop(json, "carried");
   return with_effects(json_file(json), before);
 }
 
 template <class Items, class NameOf>
 std::string free_name_of(const Items& items, std::string stem, NameOf name_of) {
-  std::set<std::string> taken;
-  for (const auto& item : items) taken.insert(name_of(item));
+  const auto is_taken = [&](const std::string& name) {
+    return std::any_of(items.begin(), items.end(),
+                       [&](const auto& item) { return name_of(item) == name; });
+  };
   // "link_3" continues "link_2"
   const std::size_t digits = stem.find_last_not_of("0123456789");
   if (digits != std::string::npos && stem[digits] == '_') stem.resize(digits);
   stem.resize(std::min<std::size_t>(stem.size(), 80));
   std::string name;
-  for (int i = 1; taken.contains(name = stem + '_' + std::to_string(i));) ++i;
+  for (int i = 1; is_taken(name = stem + '_' + std::to_string(i));) ++i;
   return name;
 }
 
@@ -288,79 +316,87 @@ Body new_part(const Scene& scene, BodyPart part, int like) {
 
 /// Renames a body in joints and criteria, or drops the criteria about it if `to` is empty.
 void rename(Json& json, const std::string& from, const std::string& to) {
-  if (json.contains("joints")) {
-    for (Json& joint : json["joints"]) {
+  if (Json* joints = find(json, "joints")) {
+    for (Json& joint : *joints) {
       for (const char* side : {"a", "b"}) {
-        if (joint.value(side, "") == from) joint[side] = to;
+        if (Json* body = find(joint, side); is_text(body, from)) *body = to;
       }
     }
   }
-  if (!json.contains("criteria")) return;
-  Json& criteria = json["criteria"];
-  if (criteria.value("track", "") == from) criteria["track"] = to;
-  if (criteria.contains("displacement") && criteria["displacement"].value("body", "") == from) {
-    criteria["displacement"]["body"] = to;
+  Json* criteria = find(json, "criteria");
+  if (criteria == nullptr) return;
+  if (Json* track = find(*criteria, "track"); is_text(track, from)) {
+    *track = to;
+    if (to.empty()) drop(*criteria, "track");
   }
-  if (!to.empty()) return;
-  if (criteria.value("track", "-").empty()) criteria.erase("track");
-  if (criteria.contains("displacement") && criteria["displacement"].value("body", "").empty()) {
-    criteria.erase("displacement");
+  Json* moved = find(*criteria, "displacement");
+  if (moved == nullptr) return;
+  if (Json* body = find(*moved, "body"); is_text(body, from)) {
+    *body = to;
+    if (to.empty()) drop(*criteria, "displacement");
   }
 }
 
-/// Lists the values of a shape or a joint.
-struct FieldLister {
+struct Unit {
+  std::string_view key;
+  const char* name;
+};
+constexpr Unit kUnits[] = {
+    {"mass", "kg"},        {"size", "m"},        {"radius", "m"},
+    {"position", "m"},     {"orientation", "°"}, {"velocity", "m/s"},
+    {"force", "N"},        {"torque", "N m"},    {"angular_velocity", "rad/s"},
+    {"inertia", "kg m²"},  {"anchor_a", "m"},    {"anchor_b", "m"},
+    {"compliance", "m/N"}, {"length", "m"},      {"angular_compliance", "rad/N m"},
+    {"gravity", "m/s²"},   {"frame", "s"}};
+
+/// Lists fields as the values of an object.
+struct FieldList {
   std::vector<ModelField>& fields;
   std::string pointer;  // of the object, with a slash
   std::string prefix;   // of names
 
-  void add(std::string_view key, std::string_view unit, std::vector<std::string> values) const {
-    std::string name = prefix + std::string(key);
-    std::replace(name.begin(), name.end(), '_', ' ');
-    std::string units(unit == "-" ? "" : unit);
-    for (std::size_t at = units.find("^2"); at != std::string::npos; at = units.find("^2")) {
-      units.replace(at, 2, "²");
+  void add(const std::string& key, std::vector<std::string> values) const {
+    ModelField& field = fields.emplace_back();
+    field.name = prefix + key;
+    std::replace(field.name.begin(), field.name.end(), '_', ' ');
+    field.pointer = pointer + key;
+    for (const Unit& unit : kUnits) {
+      if (unit.key == key && prefix.empty()) field.unit = unit.name;
     }
-    fields.push_back(
-        {std::move(name), pointer + std::string(key), std::move(units), std::move(values)});
+    field.values = std::move(values);
   }
-  void vector(std::string_view key, std::string_view unit, const Vec3& v) const {
-    add(key, unit, {number_text(v.x()), number_text(v.y()), number_text(v.z())});
+  void add(const std::string& key, double number) const { add(key, {number_text(number)}); }
+  void add(const std::string& key, const Vec3& v) const {
+    add(key, {number_text(v.x()), number_text(v.y()), number_text(v.z())});
   }
-  void operator()(std::string_view key, double number, const Range& range,
-                  double factor = 1.0) const {
-    add(key, range.unit, {number_text(factor * number)});
-  }
-  void operator()(std::string_view key, const Vec3& v, const Range& range, double factor) const {
-    vector(key, range.unit, factor * v);
-  }
-  void operator()(std::string_view key, const Vec3& axis) const { vector(key, "", axis); }
-  void operator()(std::string_view key, const std::optional<double>& number,
-                  const Range& range) const {
-    if (number) (*this)(key, *number, range);
-  }
-  template <class Part>
-  void operator()(std::string_view key, const std::optional<Part>& part) const {
-    const std::string inner(key);
-    if (part) Part::own_fields(*part, FieldLister{fields, pointer + inner + '/', inner + ' '});
+  /// Numbers of an object, also those within its objects.
+  void add_all(const Json& object) const {
+    for (const auto& [key, value] : *object.get_ptr<const Json::object_t*>()) {
+      if (value.is_object()) {
+        FieldList{fields, pointer + key + '/', key + ' '}.add_all(value);
+      } else if (const auto* number = value.get_ptr<const double*>()) {
+        add(key, *number);
+      } else if (value.is_array()) {
+        std::vector<std::string> values;
+        for (const Json& each : value)
+          values.push_back(number_text(*each.get_ptr<const double*>()));
+        add(key, std::move(values));
+      }
+    }
   }
 };
 
 }  // namespace
 
 std::string new_scene_text(const std::string& name, const std::string& title) {
-  Scene scene;
-  scene.name = name;
-  scene.title = title;
-  scene.camera = {{1.0, 2.6, 9.0}, {0.0, 2.2, 0.0}, 7.0};
-  scene.effects = {
-      .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
-  Body& floor = scene.bodies.emplace_back();
-  floor.name = "floor";
-  floor.shape = Plane{};
-  floor.is_static = true;
-  floor.friction = 0.5;
-  return write_scene(scene);
+  Json json = parsed(R"({"format": "substep-scene", "version": 2, "name": "", "title": "",
+    "camera": {"eye": [1, 3.4, 9], "target": [0, 2.8, 0], "width": 7},
+    "effects": ["gravity", "gyroscopic", "joints", "contact", "friction"],
+    "bodies": [{"name": "floor", "static": true, "shape": {"type": "plane"},
+                "position": [0, 0, 0], "friction": 0.5}]})");
+  json["name"] = name;
+  json["title"] = title;
+  return json_file(json);
 }
 
 std::string with_value(const std::string& text, const std::string& pointer, const Json& value) {
@@ -369,12 +405,12 @@ std::string with_value(const std::string& text, const std::string& pointer, cons
   Json* object = around(json, pointer, key);
   if (object == nullptr) return text;
   const bool is_item = object->is_array();
-  if (!is_item && !object->contains(key)) {
+  if (!is_item && find(*object, key) == nullptr) {
     if (!value.is_null()) (*object)[key] = value;
     return json_file(json);
   }
   if (value.is_null()) {
-    if (!is_item) object->erase(key);
+    if (!is_item) drop(*object, key.c_str());
     return json_file(json);
   }
   std::size_t at = offset_of(text, places_of({{pointer, ""}}, text).front());
@@ -391,47 +427,39 @@ std::vector<ModelField> fields_of_body(const Scene& scene, int body) {
   const auto i = index(body);
   const Body& b = scene.bodies[i];
   std::vector<ModelField> fields;
-  const FieldLister list{fields, pointer_of("bodies", i, ""), ""};
-  if (!b.is_static) list("mass", b.mass, kMassRange);
-  std::visit(
-      [&](const auto& shape) {
-        shape.own_fields(shape, FieldLister{fields, pointer_of("bodies", i, "shape/"), ""});
-      },
-      b.shape);
-  list("position", b.position, kPositionRange, 1.0);
+  const FieldList list{fields, pointer_of("bodies", i, ""), ""};
+  if (!b.is_static) list.add("mass", b.mass);
+  Json json = body_json(b);
+  FieldList{fields, pointer_of("bodies", i, "shape/"), ""}.add_all(json["shape"]);
+  list.add("position", b.position);
   const Eigen::AngleAxisd turn(Eigen::Quaterniond(b.orientation.coeffs()));
   Vec3 degrees = turn.angle() * kDegrees * turn.axis();
   for (double& angle : degrees) angle = std::round(1e6 * angle) / 1e6 + 0.0;
-  list.vector("orientation", "°", degrees);
+  list.add("orientation", degrees);
   if (!b.is_static) {
-    for (const MotionField& field : kMotionFields)
-      list(field.key, b.*field.member, field.range, 1.0);
+    for (const MotionField& field : kMotionFields) list.add(field.key, b.*field.member);
   }
-  list("friction", b.friction, kFrictionRange);
-  list("restitution", b.restitution, kRestitutionRange);
-  if (!b.is_static) list("inertia", b.inertia, kInertiaRange, 1.0);
-  list.add("name", "", {b.name});
+  list.add("friction", b.friction);
+  list.add("restitution", b.restitution);
+  if (!b.is_static) list.add("inertia", b.inertia);
+  list.add("name", {b.name});
   return fields;
 }
 
 std::vector<ModelField> fields_of_joint(const Scene& scene, std::size_t joint) {
-  const JointBase& j = base(scene.joints[joint]);
   std::vector<ModelField> fields;
-  const FieldLister list{fields, pointer_of("joints", joint, ""), ""};
-  list("anchor_a", j.anchor_a, kPositionRange, 1.0);
-  list("anchor_b", j.anchor_b, kPositionRange, 1.0);
-  list("compliance", j.compliance, kComplianceRange);
-  std::visit([&](const auto& own) { own.own_fields(own, list); }, scene.joints[joint]);
-  list.add("name", "", {j.name});
+  const FieldList list{fields, pointer_of("joints", joint, ""), ""};
+  list.add_all(joint_json(scene, scene.joints[joint]));
+  list.add("name", {base(scene.joints[joint]).name});
   return fields;
 }
 
 std::vector<ModelField> fields_of_scene(const Scene& scene) {
   std::vector<ModelField> fields;
-  const FieldLister list{fields, "/", ""};
-  list.add("title", "", {scene.title});
-  if (scene.effects.gravity) list("gravity", scene.gravity, kGravityRange, 1.0);
-  list("frame", scene.frame, kFrameRange);
+  const FieldList list{fields, "/", ""};
+  list.add("title", {scene.title});
+  if (scene.effects.gravity) list.add("gravity", scene.gravity);
+  list.add("frame", scene.frame);
   return fields;
 }
 
@@ -470,7 +498,7 @@ std::string with_typed(const std::string& text, const Scene& scene, const ModelF
         Eigen::AngleAxisd(angle, angle > 0.0 ? Vec3(turn / angle) : Vec3::UnitX()));
     value = Json::array({q.w(), q.x(), q.y(), q.z()});
   } else if (values.size() > 1) {
-    if (object->contains(key)) {
+    if (find(*object, key) != nullptr) {
       pointer += '/' + std::to_string(part);
     } else {
       value = Json::array();
@@ -479,7 +507,8 @@ std::string with_typed(const std::string& text, const Scene& scene, const ModelF
   }
   std::string changed = with_value(text, pointer, value);
   // Velocities that a saved run carries would replace the new ones.
-  if (is_body && json.contains("carried")) changed = with_value(changed, "/carried", nullptr);
+  if (is_body && find(json, "carried") != nullptr)
+    changed = with_value(changed, "/carried", nullptr);
   return with_effects(changed, scene);
 }
 
@@ -551,10 +580,10 @@ std::string with_copy(const std::string& text, const Scene& scene, int body) {
 
 std::string without_body(const std::string& text, const Scene& scene, int body) {
   Json json = parsed(text);
-  json["bodies"].erase(index(body));
+  drop(json["bodies"], index(body));
   for (std::size_t j = scene.joints.size(); j-- > 0;) {
     const JointBase& joint = base(scene.joints[j]);
-    if (joint.a == body || joint.b == body) json["joints"].erase(j);
+    if (joint.a == body || joint.b == body) drop(json["joints"], j);
   }
   rename(json, scene.bodies[index(body)].name, "");
   return changed_text(std::move(json), scene);
@@ -562,8 +591,8 @@ std::string without_body(const std::string& text, const Scene& scene, int body) 
 
 std::string without_joint(const std::string& text, std::size_t joint) {
   Json json = parsed(text);
-  json["joints"].erase(joint);
-  json.erase("carried");
+  drop(json["joints"], joint);
+  drop(json, "carried");
   return json_file(json);
 }
 
@@ -610,11 +639,11 @@ std::string with_motion(const std::string& text, const Scene& scene, int body, b
   if (moves) {
     constexpr double kWater = 1000.0;  // [kg/m^3]
     const Vec3 size = 2.0 * extents_of(b);
-    item.erase("static");
+    drop(item, "static");
     item["mass"] = three_digits(std::max(kWater * size.prod(), 1e-6));
   } else {
     for (const char* key : {"mass", "inertia", "velocity", "angular_velocity", "force", "torque"}) {
-      item.erase(key);
+      drop(item, key);
     }
     item["static"] = true;
   }

@@ -20,7 +20,14 @@ const markup = (id) => `
   <button type="button" name="play">Play</button>
   <button type="button" name="step">One frame</button>
   <button type="button" name="reset">Reset</button>
-  <button type="button" data-edit="new">New scene</button>
+  <button type="button" name="text" aria-expanded="false">Edit as text</button>
+  <div class="substep-source" hidden>
+    <label for="${id}-source">Scene as text</label>
+    <textarea id="${id}-source" name="source" rows="8" spellcheck="false"></textarea>
+    <button type="button" name="apply">Apply text</button>
+    <ul></ul>
+  </div>
+  <button type="button" name="new" data-edit="new">New scene</button>
   <button type="button" name="hand" aria-expanded="false">Edit by hand</button>
   <div class="substep-hand" hidden>
     <label for="${id}-body">Body</label><select id="${id}-body" name="select"></select>
@@ -28,13 +35,6 @@ const markup = (id) => `
     `<button type="button" data-edit="${edit}">${edit}</button>`).join("")}
     <label for="${id}-edit">Change, for example mass:5 or connect:floor</label>
     <input id="${id}-edit" name="edit">
-  </div>
-  <button type="button" name="text" aria-expanded="false">Edit as text</button>
-  <div class="substep-source" hidden>
-    <label for="${id}-source">Scene as text</label>
-    <textarea id="${id}-source" name="source" rows="8" spellcheck="false"></textarea>
-    <button type="button" name="apply">Apply text</button>
-    <ul></ul>
   </div>
 </form>
 <dl>${Object.entries(fields).map(([name, title]) =>

@@ -41,8 +41,10 @@ Json* find(Json& object, std::string_view key) {
 
 void drop(Json& object, const char* key) { object.get_ptr<Json::object_t*>()->erase(key); }
 
+Json::array_t& items_of(Json& list) { return *list.get_ptr<Json::array_t*>(); }
+
 void drop(Json& list, std::size_t item) {
-  auto& items = *list.get_ptr<Json::array_t*>();
+  auto& items = items_of(list);
   items.erase(items.begin() + static_cast<std::ptrdiff_t>(item));
 }
 
@@ -114,8 +116,8 @@ std::string with_effects(const std::string& text, const Scene& before) {
   for (const EffectEntry& effect : kEffects) {
     if (!(after->effects.*effect.member) || needed.*effect.member) continue;
     bool is_listed = false;
-    for (const Json& name : *listed) is_listed = is_listed || is_text(&name, effect.name);
-    if (!is_listed) listed->push_back(effect.name);
+    for (const Json& name : items_of(*listed)) is_listed = is_listed || is_text(&name, effect.name);
+    if (!is_listed) listed->push_back(Json(std::string(effect.name)));
     changed = changed || !is_listed;
   }
   return changed ? with_value(text, "/effects", *listed) : text;
@@ -146,7 +148,7 @@ std::string free_body_name(const Scene& scene, const std::string& stem) {
   return free_name_of(scene.bodies, stem, [](const Body& body) { return body.name; });
 }
 
-bool is_plane(const Body& body) { return !outline(body.shape).has_value(); }
+bool is_plane(const Body& body) { return std::holds_alternative<Plane>(body.shape); }
 
 Vec3 half_of(const Body& body) {
   return std::visit(
@@ -162,18 +164,20 @@ Vec3 extents_of(const Body& body) {
 
 /// How far a body must be raised to be clear of another, by their bounding boxes [m]; 0 if it is.
 double lift_over(const Body& body, const Body& other) {
-  const Vec3 half = half_of(body);
   if (!body.collides || !other.collides) return 0.0;
-  if (is_plane(other)) {
-    const Vec3 up = other.orientation * Vec3::UnitY();
-    const double high = up.dot(body.position - other.position) - up.cwiseAbs().dot(half);
-    return high >= 0.0 || up.y() < 0.1 ? 0.0 : (kClear - high) / up.y();
-  }
-  const Vec3 room = half + half_of(other);
+  const Vec3 half = half_of(body);
+  const Vec3 room = half_of(other);
   const Vec3 apart = body.position - other.position;
+  const Vec3 up = other.orientation * Vec3::UnitY();
+  double high = 0.0;  // of the body's lower side over a plane
+  bool clear = false;
   constexpr double kTouch = 1e-9;
-  if ((apart.cwiseAbs().array() >= room.array() - kTouch).any()) return 0.0;
-  return room.y() + kClear - apart.y();
+  for (int i = 0; i < 3; ++i) {
+    high += up[i] * apart[i] - std::abs(up[i]) * half[i];
+    clear = clear || std::abs(apart[i]) >= half[i] + room[i] - kTouch;
+  }
+  if (is_plane(other)) return high >= 0.0 || up.y() < 0.1 ? 0.0 : (kClear - high) / up.y();
+  return clear ? 0.0 : half.y() + room.y() + kClear - apart.y();
 }
 
 /// @param except a body that it may touch, or kWorld
@@ -222,13 +226,14 @@ std::vector<Vec3> anchors_on(const Scene& scene, int body) {
 std::vector<End> ends_of(const Body& body) {
   const Vec3 half = extents_of(body);
   int longest = 0;
-  half.maxCoeff(&longest);
-  std::vector<End> ends;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 axis = Vec3::Unit((longest + i) % 3);
-    for (const double side : {1.0, -1.0}) {
-      ends.push_back({side * axis.cwiseProduct(half), side * axis});
-    }
+  for (int i = 1; i < 3; ++i) longest = half[i] > half[longest] ? i : longest;
+  std::vector<End> ends(6);
+  for (int i = 0; i < 6; ++i) {
+    const int axis = (longest + i / 2) % 3;
+    End& end = ends[index(i)];
+    end.out = Vec3::Zero();
+    end.out[axis] = i % 2 == 0 ? 1.0 : -1.0;
+    end.point[axis] = end.out[axis] * half[axis];
   }
   return ends;
 }
@@ -317,7 +322,7 @@ Body new_part(const Scene& scene, BodyPart part, int like) {
 /// Renames a body in joints and criteria, or drops the criteria about it if `to` is empty.
 void rename(Json& json, const std::string& from, const std::string& to) {
   if (Json* joints = find(json, "joints")) {
-    for (Json& joint : *joints) {
+    for (Json& joint : items_of(*joints)) {
       for (const char* side : {"a", "b"}) {
         if (Json* body = find(joint, side); is_text(body, from)) *body = to;
       }
@@ -378,7 +383,7 @@ struct FieldList {
         add(key, *number);
       } else if (value.is_array()) {
         std::vector<std::string> values;
-        for (const Json& each : value)
+        for (const Json& each : *value.get_ptr<const Json::array_t*>())
           values.push_back(number_text(*each.get_ptr<const double*>()));
         add(key, std::move(values));
       }
@@ -432,10 +437,11 @@ std::vector<ModelField> fields_of_body(const Scene& scene, int body) {
   Json json = body_json(b);
   FieldList{fields, pointer_of("bodies", i, "shape/"), ""}.add_all(json["shape"]);
   list.add("position", b.position);
-  const Eigen::AngleAxisd turn(Eigen::Quaterniond(b.orientation.coeffs()));
-  Vec3 degrees = turn.angle() * kDegrees * turn.axis();
-  for (double& angle : degrees) angle = std::round(1e6 * angle) / 1e6 + 0.0;
-  list.add("orientation", degrees);
+  const Quat& q = b.orientation;
+  const double sine = std::hypot(q.x(), q.y(), q.z());
+  const double per_sine = sine > 0.0 ? 2.0 * std::atan2(sine, q.w()) * kDegrees / sine : 0.0;
+  const auto degrees = [&](double part) { return std::round(1e6 * per_sine * part) / 1e6 + 0.0; };
+  list.add("orientation", Vec3(degrees(q.x()), degrees(q.y()), degrees(q.z())));
   if (!b.is_static) {
     for (const MotionField& field : kMotionFields) list.add(field.key, b.*field.member);
   }
@@ -487,16 +493,15 @@ std::string with_typed(const std::string& text, const Scene& scene, const ModelF
   if (typed.empty() && !is_name) {
     value = nullptr;
   } else if (key == "orientation") {
-    Vec3 turn = Vec3::Zero();
+    std::array<double, 3> turn{};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto degrees = parse_number(values[i]);
       if (!degrees) return with_value(text, pointer, value);
-      turn[static_cast<int>(i)] = *degrees / kDegrees;
+      turn[i] = *degrees / kDegrees;
     }
-    const double angle = turn.norm();
-    const Eigen::Quaterniond q(
-        Eigen::AngleAxisd(angle, angle > 0.0 ? Vec3(turn / angle) : Vec3::UnitX()));
-    value = Json::array({q.w(), q.x(), q.y(), q.z()});
+    const double angle = std::hypot(turn[0], turn[1], turn[2]);
+    const double share = angle > 0.0 ? std::sin(0.5 * angle) / angle : 0.0;
+    value = Json::array({std::cos(0.5 * angle), share * turn[0], share * turn[1], share * turn[2]});
   } else if (values.size() > 1) {
     if (find(*object, key) != nullptr) {
       pointer += '/' + std::to_string(part);

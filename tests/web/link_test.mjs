@@ -125,6 +125,7 @@ test("contains a model built with the plain controls, and another browser runs i
   await page.locator("input[name=edit]").press("Enter");
   await page.waitForFunction(() => /at least 1e-30/.test(
     document.querySelector(".substep-twin [aria-live]").textContent));
+  await drawn(page);
   await save(page, "model");
   await page.waitForURL(/scene64=/);
   const link = await call(page, "link");

@@ -7,7 +7,7 @@ namespace substep {
 App::App(Library shipped, std::unique_ptr<Renderer> draws)
     : Lab(std::move(shipped)), renderer(std::move(draws)) {
   restarted = [this](bool loaded) {
-    if (loaded) desk.selected = -1;
+    if (loaded) desk.selected = desk.model.joint = -1;
     if (loaded) desk.ringed.clear();
     if (loaded) introduction.close(*this);  // another run has replaced it
     if (loaded && !tour.runs(*this)) tour.close(*this);

@@ -185,7 +185,7 @@ void frame(App& app, double wall_dt, bool whole) {
   if (!app.session.playing()) app.try_remedies(slice);
   app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   app.notice.left -= wall_dt;
-  app.editor.open = app.desk.tab == Tab::kText;
+  app.editor.open = app.desk.tab >= Tab::kText;
   app.editor.follow(app, wall_dt);
 
   update_look(app);

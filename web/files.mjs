@@ -1,5 +1,5 @@
 // Scene files come from the menu or by drag and drop; scenes, tables and pictures are downloaded;
-// small values are stored in the browser between visits.
+// small values are stored in the browser between visits, and asked for on touch screens.
 
 const largest = 8 << 20; // per scene file: the page blocks while it reads one [bytes]
 const prefix = "substep."; // of stored keys
@@ -98,6 +98,7 @@ export function makeFiles(frame, wasm, host, readScene) {
       return "";
     }
   };
+  host.ask = (name, value) => prompt(name, value) ?? value;
 
   frame.element.addEventListener("dragover", (event) => event.preventDefault(),
     { signal: frame.signal });

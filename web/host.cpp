@@ -20,8 +20,8 @@ EM_JS(void, host_record, (int on), { Module["host"].record(on !== 0); })
 EM_JS(void, host_remember, (const char* key, const char* value), {
   Module["host"].remember(UTF8ToString(key), UTF8ToString(value));
 })
-EM_JS(char*, host_recall, (const char* key), {
-  const text = Module["host"].recall(UTF8ToString(key));
+EM_JS(char*, host_text, (const char* call, const char* a, const char* b), {
+  const text = Module["host"][UTF8ToString(call)](UTF8ToString(a), UTF8ToString(b));
   const size = lengthBytesUTF8(text) + 1;
   const memory = _malloc(size);
   stringToUTF8(text, memory, size);
@@ -34,6 +34,13 @@ namespace {
 
 // The last pasted text: the page sets it before it sends the key.
 std::string pasted;
+
+std::string text_of_page(const char* call, const std::string& a, const std::string& b = "") {
+  char* text = host_text(call, a.c_str(), b.c_str());
+  std::string copy(text);
+  std::free(text);
+  return copy;
+}
 
 }  // namespace
 
@@ -51,11 +58,9 @@ Host page_host() {
   host.remember = [](const std::string& key, const std::string& value) {
     host_remember(key.c_str(), value.c_str());
   };
-  host.recall = [](const std::string& key) {
-    char* text = host_recall(key.c_str());
-    std::string copy(text);
-    std::free(text);
-    return copy;
+  host.recall = [](const std::string& key) { return text_of_page("recall", key); };
+  host.ask = [](const std::string& name, const std::string& value) {
+    return text_of_page("ask", name, value);
   };
   return host;
 }

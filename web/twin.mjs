@@ -27,6 +27,15 @@ const markup = (id) => `
     <button type="button" name="apply">Apply text</button>
     <ul></ul>
   </div>
+  <button type="button" name="new" data-edit="new">New scene</button>
+  <button type="button" name="hand" aria-expanded="false">Edit by hand</button>
+  <div class="substep-hand" hidden>
+    <label for="${id}-body">Body</label><select id="${id}-body" name="select"></select>
+    ${["link", "ball", "box", "copy", "delete", "undo", "redo"].map((edit) =>
+    `<button type="button" data-edit="${edit}">${edit}</button>`).join("")}
+    <label for="${id}-edit">Change, for example mass:5 or connect:floor</label>
+    <input id="${id}-edit" name="edit">
+  </div>
 </form>
 <dl>${Object.entries(fields).map(([name, title]) =>
     `<dt>${title}</dt><dd data-field="${name}"></dd>`).join("")}</dl>
@@ -40,8 +49,9 @@ export function makeTwin(section, calls) {
   section.innerHTML = markup(section.id);
   const form = section.querySelector("form");
   const live = section.querySelector("[aria-live]");
-  const { enter, tour, scene, mode, solver, alpha, play, step, reset, text, source, apply }
-    = form.elements;
+  const { enter, tour, scene, mode, solver, alpha, play, step, reset, hand, select: body, text,
+    source, apply } = form.elements;
+  const byHand = section.querySelector(".substep-hand");
   const editor = section.querySelector(".substep-source");
   const faults = editor.querySelector("ul");
   const introduction = section.querySelector("[data-introduction]");
@@ -90,6 +100,32 @@ export function makeTwin(section, calls) {
     calls.reset();
     update();
   });
+
+  // Bodies by hand.
+  let bodies = "";
+  function fillBodies(selected) {
+    if (byHand.hidden) return;
+    let names = [];
+    try {
+      names = JSON.parse(calls.sceneText().text).bodies.map(({ name }) => name);
+    } catch { /* it is being written */ }
+    if (names.join("\n") !== bodies) fill(body, ["none", ...names].map((name) => [name, name]));
+    bodies = names.join("\n");
+    put(body, selected || "none");
+  }
+  hand.addEventListener("click", () => {
+    byHand.hidden = !byHand.hidden;
+    hand.setAttribute("aria-expanded", String(!byHand.hidden));
+    update();
+    makeRoom();
+  });
+  for (const button of form.querySelectorAll("[data-edit]")) {
+    button.addEventListener("click", () => {
+      const { problems } = calls.set({ edit: button.dataset.edit });
+      if (problems.length > 0) live.textContent = problems[0].message;
+      update();
+    });
+  }
 
   // The scene as text: that of the run, unless it has changes here.
   let filled = ""; // with what the field was filled
@@ -170,6 +206,7 @@ export function makeTwin(section, calls) {
     if (now !== names) fill(scene, scenes.map((s) => [s.name, s.title]));
     names = now;
     fillSource();
+    fillBodies(r.selected);
     put(scene, r.scene);
     put(mode, r.mode);
     put(solver, r.solver);

@@ -24,6 +24,9 @@ struct Host {
   /// Stores a value for later visits; recall() returns "" if nothing was stored.
   std::function<void(const std::string& key, const std::string& value)> remember;
   std::function<std::string(const std::string& key)> recall;
+  /// Asks for a value where the window gets no keyboard: on a touch screen. Returns `value` if the
+  /// user cancels.
+  std::function<std::string(const std::string& name, const std::string& value)> ask;
 };
 
 inline constexpr const char* kSceneKept = "The scene that runs was kept.";

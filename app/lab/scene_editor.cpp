@@ -78,10 +78,39 @@ void SceneEditor::replace(Lab& lab, std::string text) {
   keep_text(lab);  // it stands for this scene, not for an earlier one
   if (edit(std::move(text))) {
     ++version_;
-    while (!text_.checked()) text_.advance(SceneText::kPause, kSlice);
-    apply(lab);
+    run_now(lab);
   }
   open = was_open;
+}
+
+void SceneEditor::run_now(Lab& lab) {
+  while (!text_.checked()) text_.advance(SceneText::kPause, kSlice);
+  apply(lab);
+}
+
+std::shared_ptr<const Scene> SceneEditor::by_hand(const Lab& lab) {
+  show_run_if_unchanged(lab);
+  const bool sound = too_long.empty() && !conflict_ && text_.checked() && text_.problems().empty();
+  return sound ? text_.scene() : nullptr;
+}
+
+Problems SceneEditor::change(Lab& lab, std::string text) {
+  if (text == text_.text()) return {};
+  Problems problems = read_scene(text).problems;
+  if (!problems.empty()) return problems;
+  text_.end_step();
+  replace(lab, std::move(text));
+  text_.end_step();
+  if (!refused.empty()) return {{"", refused}};
+  return {};
+}
+
+void SceneEditor::step_back(Lab& lab) {
+  if (undo() != nullptr) run_now(lab);
+}
+
+void SceneEditor::step_forward(Lab& lab) {
+  if (redo() != nullptr) run_now(lab);
 }
 
 const TextChange* SceneEditor::undo() {

@@ -34,6 +34,15 @@ class SceneEditor {
   /// An edit by a program: shows the run's text if it does not yet, replaces it, checks it at once,
   /// and runs it if it is valid.
   void replace(Lab& lab, std::string text);
+  /// The scene to change by hand: that of the run and its text. Null if there is no text, or if it
+  /// has problems or another scene than the run.
+  std::shared_ptr<const Scene> by_hand(const Lab& lab);
+  /// A change of its text by hand: runs it if it is valid. @return else its problems, and nothing
+  /// changes
+  Problems change(Lab& lab, std::string text);
+  /// Undoes the last change, or redoes one, and runs the text at once if it is valid.
+  void step_back(Lab& lab);
+  void step_forward(Lab& lab);
   /// Runs the text from its start, if it is valid and differs from what runs. Settings of the
   /// method that differ from the scene's, load, seed and comparison are kept.
   void apply(Lab& lab);
@@ -65,6 +74,7 @@ class SceneEditor {
   [[nodiscard]] static std::shared_ptr<const Scene> scene_of(const Lab& lab);
   [[nodiscard]] std::string free_name(const Lab& lab, const std::string& wanted) const;
   void show(const std::shared_ptr<const Scene>& scene);
+  void run_now(Lab& lab);
 
   SceneText text_;
   std::shared_ptr<const Scene> base_;  // the run's scene that the text began with or became

@@ -34,6 +34,8 @@ class SceneText {
   /// Replaces the text and records the change. @return false if it is too long: then nothing
   /// changes
   bool edit(std::string text);
+  /// The next edit is a step of its own.
+  void end_step() { history_.end_step(); }
   /// @return the change of the text, or null if there is none to undo
   const TextChange* undo();
   const TextChange* redo();

@@ -12,6 +12,7 @@
 #include "app/text/event_text.hpp"
 #include "app/text/format.hpp"
 #include "app/text/link.hpp"
+#include "app/ui/model_actions.hpp"
 #include "core/io/experiment.hpp"
 #include "core/lab/presets.hpp"
 #include "core/model/number_text.hpp"
@@ -49,13 +50,13 @@ std::string choose(std::string_view value, std::array<std::string_view, 2> words
 }
 
 std::string choose_panel(std::string_view value, Desk& desk) {
-  static constexpr std::array<std::string_view, 6> kNames{"controls", "plots",    "why",
-                                                          "compare",  "accuracy", "editor"};
+  static constexpr std::array<std::string_view, 7> kNames{"controls", "plots",  "why",  "compare",
+                                                          "accuracy", "editor", "model"};
   const auto* const found = std::find(kNames.begin(), kNames.end(), value);
   if (found == kNames.end()) {
-    return must_be("controls, plots, why, compare, accuracy or editor", value);
+    return must_be("controls, plots, why, compare, accuracy, editor or model", value);
   }
-  if (desk.tab != Tab::kText) desk.tab_before_text = desk.tab;
+  if (desk.tab < Tab::kText) desk.tab_before_text = desk.tab;
   desk.tab = static_cast<Tab>(found - kNames.begin());
   const bool lab_only = desk.tab == Tab::kCompare || desk.tab == Tab::kAccuracy;
   if (lab_only) desk.level = DeskLevel::kLab;
@@ -156,6 +157,7 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
   }
   if (key == "menu") return choose(value, {"none", "share"}, desk.open_share_menu);
   if (key == "select") return select_body(app, value);
+  if (key == "edit") return ui::edit_model(app, desk, value);
   if (key == "ring") return ring_joints(app, value);
   if (key == "views") return choose(value, {"ghosts", "split"}, desk.split);
   if (key == "panel") return choose_panel(value, desk);

@@ -16,8 +16,8 @@
 namespace substep {
 
 /// The open panel: of all on a phone, else of the right ones, with the controls on the left.
-/// The text of the scene has no tab: it takes the place of all.
-enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare, kAccuracy, kText };
+/// The editors of the scene, as text and by hand, have no tab: they take the place of all.
+enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare, kAccuracy, kText, kModel };
 
 /// Amount of controls shown.
 enum class DeskLevel : unsigned char {
@@ -26,6 +26,18 @@ enum class DeskLevel : unsigned char {
 };
 
 enum class Plot : unsigned char { kSubsteps, kEnergy, kDrift, kError, kTime, kCount };
+
+/// State of the panel "My model".
+struct ModelDesk {
+  int joint = -1;              // selected, or -1
+  std::size_t joint_type = 0;  // of new joints, index into kTypes<Joint>
+  bool connecting = false;     // the body that is chosen next is joined to the selected one
+  std::string typing;          // the field that has the keyboard, or ""
+  std::string typed;           // its text
+  std::string refused;         // the field whose text was refused, or ""
+  std::string refused_text;    // this text
+  std::string message;         // why
+};
 
 /// A side panel.
 struct PanelSide {
@@ -96,6 +108,7 @@ struct Desk {
   float tour_height = 0.0F;     // of its card; the picture leaves room for it
   bool tour_in_page = false;    // the page shows its text beside the canvas
   bool tour_hint = false;       // the tour was neither taken nor dismissed
+  ModelDesk model;
   ViewOptions view;
   int selected = -1;                // body, or -1
   std::vector<std::string> ringed;  // joints, by their names

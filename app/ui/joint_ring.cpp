@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
@@ -15,7 +16,12 @@ void joint_rings(const Look& look, const Lab& lab, const Desk& desk, const Viewp
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ViewRect& pane = viewport.panes.front();
   draw.PushClipRect({pane.x, pane.y}, {pane.x + pane.width, pane.y + pane.height}, true);
-  for (const std::string& name : desk.ringed) {
+  std::vector<std::string> ringed = desk.ringed;
+  const int selected = desk.model.joint;
+  if (desk.tab == Tab::kModel && selected >= 0 && index(selected) < scene.joints.size()) {
+    ringed.push_back(base(scene.joints[index(selected)]).name);
+  }
+  for (const std::string& name : ringed) {
     const auto found = std::find_if(scene.joints.begin(), scene.joints.end(),
                                     [&](const Joint& joint) { return base(joint).name == name; });
     if (found == scene.joints.end()) continue;

@@ -9,6 +9,7 @@
 
 #include "app/app.hpp"
 #include "app/text/format.hpp"
+#include "app/ui/model_actions.hpp"
 #include "app/ui/panels.hpp"
 
 namespace substep::ui {
@@ -58,7 +59,7 @@ void focus_next_panel(bool back) {
   g.NavDisableHighlight = false;
 }
 
-constexpr std::array<KeyAction, 20> kActions{
+constexpr std::array<KeyAction, 21> kActions{
     {{"Space", " ", "play, pause",
       [](App& app, char) {
         // The focused control handles the space bar.
@@ -99,6 +100,11 @@ constexpr std::array<KeyAction, 20> kActions{
       [](App& app, char) {
         const bool open = app.desk.tab == Tab::kText && app.desk.panels && app.desk.right.open;
         open ? close_scene_text(app.desk) : open_scene_text(app.desk);
+      }},
+     {"M", "mM", "edit the model by hand",
+      [](App& app, char) {
+        const bool open = app.desk.tab == Tab::kModel && app.desk.panels && app.desk.right.open;
+        open ? close_scene_text(app.desk) : open_model(app.desk);
       }},
      {"S", "sS", "save the scene as it is now", [](App& app, char) { app.save_scene(); }},
      {"P", "pP", "picture of the window",

@@ -81,7 +81,12 @@ const Result* find_n_chart(const Look& look, const FindN& find, float width);
 void find_n_button(const Look& look, Lab& lab, Desk& desk);
 /// The scene as text, with its problems.
 void scene_text_panel(const Look& look, Lab& lab, Desk& desk, float height);
-/// Opens that panel.
+/// "My model": bodies, joints and the scene, changed by hand.
+void model_panel(const Look& look, Lab& lab, Desk& desk);
+inline constexpr const char* kEditByHand = "Edit by hand";
+/// The head of both editors, with a choice between them.
+void editor_heading(const Look& look, Desk& desk);
+/// Opens that of the text.
 void open_scene_text(Desk& desk);
 void close_scene_text(Desk& desk);
 inline constexpr const char* kEditText = "Edit as text";
@@ -156,7 +161,7 @@ void caption(const Look& look, const Session& session, Desk& desk, const Viewpor
              bool phone);
 void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
 void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
-/// Rings around the joints of Desk::ringed, with their names.
+/// Rings around the joints of Desk::ringed and the one selected in "My model", with their names.
 void joint_rings(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
 /// A ring around what failed in each run, with its measure.
 void failure_rings(const Look& look, const Lab& lab, const Viewport& viewport);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/ui/model_actions.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -73,9 +74,11 @@ void scene_picker(const Look& look, Lab& lab, Desk& desk, std::string_view tip) 
   const bool in_lab = desk.level == DeskLevel::kLab;  // Explore has fewer than 20 controls
   const float width = ImGui::GetContentRegionAvail().x - (in_lab ? height + kBetween : 0.0F);
   std::shared_ptr<const Scene> chosen;
+  bool added = false;
   menu_button(look, "scene", now.title, width, height, tip, [&] {
     std::string group;
     bool first = true;
+    if (menu_item(look, "New scene", "a floor, and what you add")) added = true;
     for (const auto& scene : lab.library.scenes()) {
       if (lab.library.base_of(*scene) != nullptr) continue;
       if (first || group != scene->group) group_heading(look, scene->group, first);
@@ -99,6 +102,7 @@ void scene_picker(const Look& look, Lab& lab, Desk& desk, std::string_view tip) 
     }
   }
   if (chosen) lab.run(chosen);
+  if (added) new_scene(lab, desk);
 }
 
 }  // namespace substep::ui

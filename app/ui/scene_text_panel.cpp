@@ -3,6 +3,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -15,19 +16,6 @@ namespace substep::ui {
 namespace {
 
 constexpr std::size_t kListed = 100;  // problems; each is measured in every frame
-
-void scene_text_heading(const Look& look, Desk& desk) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x;
-  const float y = at.y + 0.5F * (look.m.row - text_size(look.fonts.caps, "SCENE").y);
-  ImGui::SetCursorScreenPos({at.x, y});
-  section(look, "Scene as text");
-  ImGui::SetCursorScreenPos({at.x + width - look.m.row, at.y});
-  if (button(look, "Close the text", Icon::kCross, "", ButtonKind::kGhost, look.m.row, look.m.row,
-             "Back to the plots")) {
-    close_scene_text(desk);
-  }
-}
 
 std::string problem_count(std::size_t count) {
   return count == 1 ? "One problem" : std::to_string(count) + " problems";
@@ -172,8 +160,29 @@ void scene_text_problems(const Look& look, const SceneText& text, TextField& fie
 
 }  // namespace
 
+void editor_heading(const Look& look, Desk& desk) {
+  static constexpr std::array<Choice, 2> kEditors{
+      {{"By hand", "Bodies, joints and the scene"}, {"As text", "The scene file"}}};
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  constexpr float kSwitch = 150.0F;
+  const float y = at.y + 0.5F * (look.m.row - text_size(look.fonts.caps, "SCENE").y);
+  ImGui::SetCursorScreenPos({at.x, y});
+  section(look, "My model");
+  ImGui::SetCursorScreenPos({at.x + width - look.m.row - 8.0F - kSwitch, at.y});
+  int editor = desk.tab == Tab::kText ? 1 : 0;
+  if (segmented(look, "editor", kEditors, editor, kSwitch)) {
+    desk.tab = editor == 1 ? Tab::kText : Tab::kModel;
+  }
+  ImGui::SetCursorScreenPos({at.x + width - look.m.row, at.y});
+  if (button(look, "Close the text", Icon::kCross, "", ButtonKind::kGhost, look.m.row, look.m.row,
+             "Back to the plots")) {
+    close_scene_text(desk);
+  }
+}
+
 void open_scene_text(Desk& desk) {
-  if (desk.tab != Tab::kText) desk.tab_before_text = desk.tab;
+  if (desk.tab < Tab::kText) desk.tab_before_text = desk.tab;
   desk.tab = Tab::kText;
   desk.panels = true;
   desk.right.open = true;
@@ -186,7 +195,7 @@ void scene_text_panel(const Look& look, Lab& lab, Desk& desk, float height) {
   SceneEditor& editor = lab.editor;
   TextField& field = desk.scene_text;
   const float top = ImGui::GetCursorScreenPos().y;
-  scene_text_heading(look, desk);
+  editor_heading(look, desk);
   scene_text_state(look, lab);
   if (!editor.too_long.empty()) {
     label(look.fonts.regular, look.theme->text, editor.too_long);

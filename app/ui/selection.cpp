@@ -7,6 +7,7 @@
 
 #include "app/lab/stiffness.hpp"
 #include "app/text/format.hpp"
+#include "app/ui/model_actions.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -117,7 +118,12 @@ void selection_card(const Look& look, const Session& session, Desk& desk, const 
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float room = ImGui::GetContentRegionAvail().x;
     draw_text(look.fonts.medium, at, look.theme->text,
-              fitted(look.fonts.medium, body.name, room - 28.0F));
+              fitted(look.fonts.medium, body.name, room - 54.0F));
+    ImGui::SetCursorScreenPos({at.x + room - 46.0F, at.y - 2.0F});
+    if (button(look, kEditByHand, Icon::kPencil, "", ButtonKind::kGhost, 22.0F, 22.0F,
+               "Edit by hand (M)")) {
+      open_model(desk);
+    }
     ImGui::SetCursorScreenPos({at.x + room - 20.0F, at.y - 2.0F});
     close = button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 22.0F, 22.0F,
                    "Nothing selected (Esc)");

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "app/ui/model_actions.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/io/scene_writer.hpp"
@@ -33,6 +34,8 @@ void items(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   if (host.open_link && menu_item(look, "Open the copied link")) host.open_link();
   line();
   if (host.open_file && menu_item(look, "Open scene …", "O")) host.open_file();
+  if (menu_item(look, "New scene")) new_scene(lab, desk);
+  if (menu_item(look, kEditByHand, "M")) open_model(desk);
   if (menu_item(look, kEditText, "E")) open_scene_text(desk);
   if (host.save_file && menu_item(look, "Save scene as it is now", "S")) lab.save_scene();
   line();

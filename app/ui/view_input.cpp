@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/render/picking.hpp"
+#include "app/ui/model_actions.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 
@@ -129,18 +130,24 @@ void drag(Session& session, Viewport& viewport) {
 }
 
 // Places the card on the side away from the body.
-void select(Desk& desk, const Viewport& viewport, int body) {
+void select(Lab& lab, Desk& desk, const Viewport& viewport, int body) {
+  if (desk.model.connecting) {
+    desk.model.connecting = false;
+    if (body >= 0) connect_selected(lab, desk, body);
+    return;
+  }
+  if (body != desk.selected) desk.model.joint = -1;
   desk.selected = body;
   const ViewRect& v = viewport.view_rect;
   desk.card_left = ImGui::GetIO().MousePos.x > v.x + 0.5F * v.width;
 }
 
-void release(Session& session, Desk& desk, Viewport& viewport) {
+void release(Lab& lab, Desk& desk, Viewport& viewport) {
   Hand& hand = viewport.hand;
   if (hand.holding) {
-    session.let_go();
+    lab.session.let_go();
   } else if (!hand.moved) {
-    select(desk, viewport, hand.body);
+    select(lab, desk, viewport, hand.body);
   }
   hand = {};
 }
@@ -165,7 +172,7 @@ void view_input(Lab& lab, Desk& desk, Viewport& viewport) {
   } else if (ImGui::IsItemActive()) {
     drag(lab.session, viewport);
   } else if (ImGui::IsItemDeactivated()) {
-    release(lab.session, desk, viewport);
+    release(lab, desk, viewport);
   }
   viewport.pointer_on_picture = ImGui::IsItemHovered();
   if (viewport.pointer_on_picture) {

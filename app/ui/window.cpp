@@ -166,6 +166,8 @@ void desktop_panels(App& app, const ViewRect& space) {
       const float height = space.height - 2.0F * app.look.m.pad;
       if (is_text) {
         scene_text_panel(app.look, app, app.desk, height);
+      } else if (app.desk.tab == Tab::kModel) {
+        model_panel(app.look, app, app.desk);
       } else {
         instruments(app, height);
         scroll_by_drag();
@@ -220,8 +222,12 @@ void phone(App& app, ImVec2 display) {
     transport(app, true);
     if (app.desk.panels) {
       ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
-      if (app.desk.tab == Tab::kText) {
-        scene_text_panel(app.look, app, app.desk, ImGui::GetContentRegionAvail().y);
+      if (app.desk.tab >= Tab::kText) {
+        if (app.desk.tab == Tab::kText) {
+          scene_text_panel(app.look, app, app.desk, ImGui::GetContentRegionAvail().y);
+        } else {
+          model_panel(app.look, app, app.desk);
+        }
         ImGui::End();
         ImGui::PopStyleVar(3);
         return;
@@ -282,7 +288,8 @@ void draw_window(App& app) {
     desktop(app, display);
   }
   app.view_rect.height -= app.desk.tour_height;
-  selection_card(app.look, app.session, app.desk, app, small);
+  // "My model" shows it already.
+  if (app.desk.tab != Tab::kModel) selection_card(app.look, app.session, app.desk, app, small);
   std::optional<TourWords> words;
   if (app.desk.tour >= 0 && !app.desk.tour_in_page) {
     words = tour_words(app, static_cast<std::size_t>(app.desk.tour), app.tour.loop());

@@ -1,5 +1,6 @@
 #include "core/import/import_model.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -98,7 +99,11 @@ ImportResult import_model(std::string_view text, const std::string& name, const 
   const std::optional<Scene> scene = is_xml(text)
                                          ? read_xml(text, name, files, options, report, places)
                                          : read_json(text, name, options, report, places);
-  if (scene && report.errors.empty()) {
+  const auto moves = [](const Body& body) { return !body.is_static; };
+  if (scene && report.errors.empty() &&
+      std::none_of(scene->bodies.begin(), scene->bodies.end(), moves)) {
+    report.errors.add("/bodies", "no body moves");  // a model is imported to be moved
+  } else if (scene && report.errors.empty()) {
     for (const Problem& problem : validate(*scene)) {
       add_problem(problem, places, *scene, report.errors);
     }

@@ -118,10 +118,7 @@ void SceneReading::Impl::read_bodies() {
 }
 
 void SceneReading::Impl::read_names() {
-  const auto moves = [](const Body& body) { return !body.is_static; };
-  if (bodies && std::none_of(scene->bodies.begin(), scene->bodies.end(), moves)) {
-    in->problem("bodies", "no body moves");
-  }
+  if (bodies && bodies->empty()) in->problem("bodies", "must have at least one body");
   names.emplace(scene->bodies, found);
   read_criteria(*in, *names, *scene, found);
   scene->verdicts = read_verdicts(*in, found);

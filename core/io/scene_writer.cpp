@@ -40,33 +40,6 @@ Json shape_json(const Shape& shape) {
   return json;
 }
 
-Json body_json(const Body& body) {
-  Json json;
-  json["name"] = body.name;
-  if (body.is_static) json["static"] = true;
-  json["shape"] = shape_json(body.shape);
-  if (!body.is_static) {
-    json["mass"] = body.mass;
-    if (body.inertia != solid_inertia(body.shape, body.mass)) {
-      json["inertia"] = vector_json(body.inertia);
-    }
-  }
-  json["position"] = vector_json(body.position);
-  const Quat& q = body.orientation;
-  if (q.coeffs() != Quat::Identity().coeffs()) {
-    json["orientation"] = Json::array({q.w(), q.x(), q.y(), q.z()});
-  }
-  for (const MotionField& field : kMotionFields) {
-    if (body.*field.member != Vec3::Zero()) json[field.key] = vector_json(body.*field.member);
-  }
-  if (body.friction != 0.0) json["friction"] = body.friction;
-  if (body.restitution != 0.0) json["restitution"] = body.restitution;
-  if (body.collision_group >= 0) json["collision_group"] = body.collision_group;
-  if (!body.collides) json["collides"] = false;
-  if (body.color) json["color"] = format_text("#%06x", *body.color & 0xffffffU);
-  return json;
-}
-
 /// Writes directions and optional parts at once, and numbers to where the compliance comes first.
 struct OwnFieldWriter {
   Json& axes;
@@ -89,22 +62,6 @@ struct OwnFieldWriter {
 /// @param body index, or kWorld
 std::string name_of_body(const Scene& scene, int body) {
   return body == kWorld ? std::string(kWorldName) : scene.bodies[index(body)].name;
-}
-
-Json joint_json(const Scene& scene, const Joint& joint) {
-  const JointBase& j = base(joint);
-  Json json;
-  json["name"] = j.name;
-  json["type"] = kTypes<Joint>[joint.index()];
-  json["a"] = name_of_body(scene, j.a);
-  json["b"] = name_of_body(scene, j.b);
-  json["anchor_a"] = vector_json(j.anchor_a);
-  json["anchor_b"] = vector_json(j.anchor_b);
-  Json numbers;
-  numbers["compliance"] = j.compliance;
-  std::visit([&](const auto& own) { own.own_fields(own, OwnFieldWriter{json, numbers}); }, joint);
-  json.update(numbers);
-  return json;
 }
 
 Json criteria_json(const Scene& scene) {
@@ -194,6 +151,49 @@ Json scene_json(const Scene& scene) {
 }
 
 }  // namespace
+
+Json body_json(const Body& body) {
+  Json json;
+  json["name"] = body.name;
+  if (body.is_static) json["static"] = true;
+  json["shape"] = shape_json(body.shape);
+  if (!body.is_static) {
+    json["mass"] = body.mass;
+    if (body.inertia != solid_inertia(body.shape, body.mass)) {
+      json["inertia"] = vector_json(body.inertia);
+    }
+  }
+  json["position"] = vector_json(body.position);
+  const Quat& q = body.orientation;
+  if (q.coeffs() != Quat::Identity().coeffs()) {
+    json["orientation"] = Json::array({q.w(), q.x(), q.y(), q.z()});
+  }
+  for (const MotionField& field : kMotionFields) {
+    if (body.*field.member != Vec3::Zero()) json[field.key] = vector_json(body.*field.member);
+  }
+  if (body.friction != 0.0) json["friction"] = body.friction;
+  if (body.restitution != 0.0) json["restitution"] = body.restitution;
+  if (body.collision_group >= 0) json["collision_group"] = body.collision_group;
+  if (!body.collides) json["collides"] = false;
+  if (body.color) json["color"] = format_text("#%06x", *body.color & 0xffffffU);
+  return json;
+}
+
+Json joint_json(const Scene& scene, const Joint& joint) {
+  const JointBase& j = base(joint);
+  Json json;
+  json["name"] = j.name;
+  json["type"] = kTypes<Joint>[joint.index()];
+  json["a"] = name_of_body(scene, j.a);
+  json["b"] = name_of_body(scene, j.b);
+  json["anchor_a"] = vector_json(j.anchor_a);
+  json["anchor_b"] = vector_json(j.anchor_b);
+  Json numbers;
+  numbers["compliance"] = j.compliance;
+  std::visit([&](const auto& own) { own.own_fields(own, OwnFieldWriter{json, numbers}); }, joint);
+  json.update(numbers);
+  return json;
+}
 
 std::string write_scene(const Scene& scene) {
   if (!has_named_bodies(scene)) return "";

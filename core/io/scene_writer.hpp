@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/io/json.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {
@@ -11,5 +12,11 @@ namespace substep {
 /// a reference to a body that is not there, or a number that is not finite. Other invalid scenes
 /// are written, and refused by read_scene with the same problems.
 std::string write_scene(const Scene& scene);
+
+/// One entry of "bodies", as write_scene() has it.
+Json body_json(const Body& body);
+
+/// One entry of "joints". @param scene with the joint's bodies
+Json joint_json(const Scene& scene, const Joint& joint);
 
 }  // namespace substep

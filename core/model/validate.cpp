@@ -271,10 +271,7 @@ Problems validate(const Scene& scene) {
   SoundParts sound;
   Problems problems = check_all_values(scene, sound);
   if (problems.size() >= kMaxProblems) return first_of(std::move(problems));
-  const auto moves = [](const Body& body) { return !body.is_static; };
-  if (std::none_of(scene.bodies.begin(), scene.bodies.end(), moves)) {
-    problems.push_back({"/bodies", "no body moves"});
-  }
+  if (scene.bodies.empty()) problems.push_back({"/bodies", "must have at least one body"});
   check_texts(scene, problems);
   check_effects(scene, problems);
   check_joint_starts(scene, sound, problems);

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
+#include "core/model/methods.hpp"
 #include "core/model/validate.hpp"
 #include "core/sim/simulator.hpp"
 
@@ -48,6 +51,30 @@ TEST(SceneBuilder, JoinsRotatedBodiesAtACommonPoint) {
   Simulator simulator(scene);
   EXPECT_TRUE(simulator.start().found.consistent());
   EXPECT_EQ(simulator.step().status, StepStatus::kOk);
+}
+
+TEST(SceneBuilder, ASceneInWhichNothingMovesStaysWithEveryMethod) {
+  SceneBuilder builder;
+  builder.add_fixed(Plane{}, {0, 0, 0});
+  builder.add_fixed(Box{}, {0, 0.2, 0});
+  const auto scene = builder.build();
+  EXPECT_TRUE(validate(*scene).empty());
+  for (const auto& mode : kModes) {
+    for (const auto& solver : kSolvers) {
+      Simulator simulator(scene);
+      Settings settings;
+      settings.mode = mode.value;
+      settings.solver = solver.value;
+      simulator.set_settings(settings);
+      for (int i = 0; i < 3; ++i) {
+        const FrameReport& report = simulator.step();
+        EXPECT_EQ(report.status, StepStatus::kOk) << mode.name << ' ' << solver.name;
+        EXPECT_EQ(report.energy, 0.0);
+        EXPECT_TRUE(std::isfinite(report.n_mean)) << mode.name << ' ' << solver.name;
+      }
+      EXPECT_EQ(simulator.state().x[1], Vec3(0, 0.2, 0));
+    }
+  }
 }
 
 TEST(SceneBuilder, LeavesProblemsToTheChecks) {

@@ -241,10 +241,14 @@ TEST(SceneReader, RefusesUniversalAndCylindricalJointsWithTheWrongAxesOrKeys) {
            "compliance, axis_a, axis_b or angular_compliance)"});
 }
 
-TEST(SceneReader, NeedsABodyThatMoves) {
+TEST(SceneReader, NeedsABodyButNoneThatMoves) {
   EXPECT_EQ(problems_of(R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A",
                             "bodies": []})"),
-            List{"/bodies: no body moves"});
+            List{"/bodies: must have at least one body"});
+  EXPECT_EQ(problems_of(R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A",
+                            "bodies": [{"name": "floor", "static": true, "position": [0, 0, 0],
+                                        "shape": {"type": "plane"}}]})"),
+            List{});
 }
 
 TEST(SceneReader, ReportsThatAFileCannotBeRead) {

@@ -61,6 +61,7 @@ const states = {
   accuracy: (page) => call(page, "set", { help: "off", panel: "accuracy" }),
   comparison: (page) => call(page, "set", { panel: "compare", compare: "mode:none", views: "split" }),
   "the scene as text": (page) => call(page, "set", { panel: "editor" }),
+  "the model by hand": (page) => page.locator("button[name=hand]").press("Enter"),
   "the tour": (page) => call(page, "set", { tour: 2 }),
   "the first screen": (page) => call(page, "set", { introduction: "on" }),
   "a lost context": (page) => page.evaluate(() => document.querySelector(".substep-view")
@@ -178,10 +179,14 @@ test("everything is operable by keyboard, and the focus can leave", async () => 
   await reports(page, "scene", "swinging_box_own");
   assert.equal((await call(page, "report")).alpha, 0.25, "the method is kept");
   await page.locator("button[name=text]").press("Enter"); // folds it
+  for (const name of ["new", "hand"]) {
+    await page.keyboard.press("Tab");
+    assert.equal(await focused(page), name);
+  }
   await page.keyboard.press("Tab");
   assert.equal(await focused(page), "after", "the focus cannot leave");
   await page.waitForFunction(() => document.querySelector(".substep-view").getBoundingClientRect().y === 0);
-  for (let i = 0; i < 9; ++i) await page.keyboard.press("Shift+Tab");
+  for (let i = 0; i < 11; ++i) await page.keyboard.press("Shift+Tab");
   assert.equal(await focused(page), "substep-view");
   await leave(page);
 });

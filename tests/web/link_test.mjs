@@ -108,6 +108,35 @@ test("contains a user's scene, and another browser runs it", async () => {
   await leave(other);
 });
 
+test("contains a model built with the plain controls, and another browser runs it", async () => {
+  const page = await openPage(session);
+  const press = (edit) => page.locator(`[data-edit=${edit}]`).press("Enter");
+  await press("new");
+  await reports(page, "scene", "my_scene");
+  await page.locator("button[name=hand]").press("Enter");
+  for (const edit of ["link", "link", "link", "link", "link", "ball"]) await press(edit);
+  assert.deepEqual(await page.locator("select[name=select] option").allTextContents(),
+    ["none", "floor", "link_1", "link_2", "link_3", "link_4", "link_5", "ball_1"]);
+  await reports(page, "selected", "ball_1");
+  await page.locator("input[name=edit]").fill("mass:1000");
+  await page.locator("input[name=edit]").press("Enter");
+  await page.waitForFunction(() => /"mass": 1000/.test(window.substep.sceneText().text));
+  await page.locator("input[name=edit]").fill("mass:-1");
+  await page.locator("input[name=edit]").press("Enter");
+  await page.waitForFunction(() => /at least 1e-30/.test(
+    document.querySelector(".substep-twin [aria-live]").textContent));
+  await drawn(page);
+  await save(page, "model");
+  await page.waitForURL(/scene64=/);
+  const link = await call(page, "link");
+  const hash = await hashAfter(page, 60);
+  await leave(page);
+  const other = await openPage(session, { fragment: fragmentOf(link) });
+  assert.equal((await call(other, "report")).scene, "my_scene");
+  assert.equal(await hashAfter(other, 60), hash);
+  await leave(other);
+});
+
 test("packs a scene in the format of the tests", async () => {
   const page = await openPage(session);
   const text = await ownScene();

@@ -26,7 +26,9 @@ std::string look_of(App& app) {
                      std::to_string(s.balls()) + "|" + std::to_string(s.playing()) + "|" +
                      std::to_string(d.scale) + "|" + std::to_string(d.tour) + "|" +
                      app.notice.text + "|" + std::to_string(app.run_count);
-  for (const bool flag : {d.dark, d.panels, d.help, d.split}) text += flag ? '1' : '0';
+  for (const bool flag : {d.dark, d.panels, d.help, d.split, d.tab == Tab::kModel}) {
+    text += flag ? '1' : '0';
+  }
   const Vec3 eye = app.view.camera.eye(app.view_rect);
   for (int i = 0; i < 3; ++i) text += std::to_string(eye[i]) + ",";
   return text;

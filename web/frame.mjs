@@ -45,7 +45,7 @@ export function makeFrame(element, wholePage) {
   const say = (title, text, { working = false, answer = "", pictured = false } = {}) => {
     overlay.hidden = false;
     picture.hidden = !pictured;
-    if (pictured) picture.src = new URL("picture.jpg", import.meta.url).href;
+    if (pictured) picture.src = new URL("picture.webp", import.meta.url).href;
     overlay.setAttribute("role", working ? "status" : "alert");
     heading.textContent = title;
     message.textContent = text;

@@ -17,10 +17,10 @@ const types = {
   ".json": "application/json",
   ".mjs": "text/javascript",
   ".png": "image/png",
-  ".jpg": "image/jpeg",
   ".svg": "image/svg+xml",
   ".ttf": "font/ttf",
   ".wasm": "application/wasm",
+  ".webp": "image/webp",
   ".woff2": "font/woff2",
 };
 

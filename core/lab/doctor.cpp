@@ -561,9 +561,8 @@ class Doctor {
   }
   static std::string rise_text(const EnergyRise& rise) {
     return format_text(
-        "gyroscopic and Coriolis forces, which MuJoCo treats explicitly, raise the energy by %.3g "
-        "J "
-        "> %.3g J within %.3g s",
+        "gyroscopic and Coriolis forces, which MuJoCo treats explicitly, raise the energy by "
+        "%.3g J > %.3g J within %.3g s",
         rise.rise, rise.limit, rise.time);
   }
 
@@ -592,13 +591,13 @@ class Doctor {
     const auto path = path_of(scene, settings, scene_->frame, question_.budget, &run,
                               question_.seconds, scene->frame / foretold);
     tried.holds = run.holds;
+    tried.verdict = run.verdict;
     if (run.holds && run.by_shadow) tried.gain = run.gain;
     const bool is_engines = std::isfinite(foretold);  // not a method of substep
     if (const auto rise = is_engines ? rise_of(*scene, scene->frame) : std::nullopt) {
       tried.holds = false;
       tried.verdict = "fails: " + rise_text(*rise);
     }
-    tried.verdict = run.verdict;
     tried.operations = run.operations;
     const double unchanged = diagnosis_.at_step->operations;
     tried.cost = unchanged > 0.0 ? run.operations / unchanged : 1.0;

@@ -124,8 +124,8 @@ struct Diagnosis {
 Diagnosis diagnose(std::shared_ptr<const Scene> scene, const DoctorQuestion& question);
 
 /// The run that Diagnosis::at_step judges, with its settings: the scene after the doctor's shake,
-/// in frames of the step that the paper's scheme takes at once. @param step [s] @param gain that
-/// the energy is allowed, 0: as the scene says [J]
+/// in frames that are one step of the paper's scheme, with joints that close exactly. @param step
+/// [s] @param gain that the energy is allowed, 0: as the scene says [J]
 Scene scene_at_step(const Scene& scene, double step, double gain = 0.0);
 
 /// The gain for scene_at_step() with which a window judges a run as the doctor did [J].

@@ -817,14 +817,14 @@ Scene scene_at_step(const Scene& scene, double step, double gain) {
 }
 
 double gain_of(const Diagnosis& diagnosis, double step) {
-  constexpr double kRounding = 1e-9;
+  constexpr double kSlack = 1e-9;
   double gain = 0.0;
   const auto& run = diagnosis.at_step;
   if (run && run->holds && run->by_shadow && step == diagnosis.question.step) gain = run->gain;
   for (const TriedRemedy& tried : diagnosis.remedies) {
     if (tried.shorter == step) gain = tried.gain;
   }
-  return gain * (1.0 + kRounding);
+  return gain * (1.0 + kSlack);
 }
 
 Diagnosis diagnose(std::shared_ptr<const Scene> scene, const DoctorQuestion& question) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/io/scene_reader.hpp"
+#include "core/model/format_text.hpp"
 
 namespace substep::ui {
 namespace {
@@ -208,8 +209,19 @@ std::string take_action(Lab& lab, Desk& desk, std::string_view action) {
 }  // namespace
 
 std::string edit_model(Lab& lab, Desk& desk, std::string_view actions) {
+  // A link must not stop the page: every action reads the whole text.
+  constexpr int kMostActions = 100;
+  constexpr std::size_t kMostRead = 2'000'000;  // [bytes]
   std::string problem;
-  while (!actions.empty() && problem.empty()) {
+  std::size_t read = 0;
+  for (int taken = 0; !actions.empty() && problem.empty(); ++taken) {
+    read += lab.editor.text().text().size();
+    if (taken == kMostActions || read > kMostRead) {
+      return format_text(
+          "only the first %d actions were taken: a link has at most %d, fewer in a "
+          "scene with a long text",
+          taken, kMostActions);
+    }
     const std::string_view action = actions.substr(0, actions.find(';'));
     actions.remove_prefix(std::min(action.size() + 1, actions.size()));
     problem = take_action(lab, desk, action);

@@ -38,7 +38,7 @@ void step_model(Lab& lab, Desk& desk, bool forward);
 
 /// Actions by name, with semicolons between them: "new", "link", "ball", "box", "copy", "delete",
 /// "moves", "static", "undo", "redo", "connect:NAME", or "FIELD:VALUE" of the selected body, with
-/// commas between three numbers. @return error message, or ""
+/// commas between three numbers; at most 100. @return error message, or ""
 std::string edit_model(Lab& lab, Desk& desk, std::string_view actions);
 
 }  // namespace substep::ui

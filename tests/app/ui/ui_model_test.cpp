@@ -555,5 +555,17 @@ TEST(ModelPanel, ActionsByNameSayWhatIsWrong) {
   EXPECT_EQ(box.name, "box");
 }
 
+// Each reads the whole text: 1,500 balls would stop the page for a minute.
+TEST(ModelPanel, ALinkHasABoundedNumberOfActions) {
+  Headless h;
+  std::string actions = "new";
+  for (int i = 0; i < 1500; ++i) actions += ";ball";
+  EXPECT_EQ(
+      h.app->set("edit", actions),
+      "only the first 100 actions were taken: a link has at most 100, fewer in a scene with a "
+      "long text");
+  EXPECT_EQ(h.app->session.scene().bodies.size(), 100U);
+}
+
 }  // namespace
 }  // namespace substep

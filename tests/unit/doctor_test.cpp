@@ -156,8 +156,9 @@ TEST(Doctor, TellsTheGainByForcesThatMuJoCoTreatsExplicitly) {
   EXPECT_TRUE(tells(ask(0.8, 0.02, "mujoco-implicitfast")));
   EXPECT_FALSE(tells(ask(0.8, 0.02, "substep")));
   EXPECT_EQ(ask(0.2, 0.02, "mujoco").verdict, Diagnosis::Verdict::kHolds);
-  const auto shorter = std::find_if(fast.remedies.begin(), fast.remedies.end(),
-                                    [](const TriedRemedy& of) { return of.shorter > 0.0 && of.holds; });
+  const auto shorter =
+      std::find_if(fast.remedies.begin(), fast.remedies.end(),
+                   [](const TriedRemedy& of) { return of.shorter > 0.0 && of.holds; });
   ASSERT_NE(shorter, fast.remedies.end());
   EXPECT_FALSE(tells(ask(0.8, shorter->shorter, "mujoco")));
 }

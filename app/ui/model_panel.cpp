@@ -82,11 +82,10 @@ void field_rows(const Look& look, Lab& lab, Desk& desk, const std::vector<ModelF
   for (const ModelField& field : fields) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
-    std::string name = field.name + (field.unit.empty() ? "" : "  " + field.unit);
-    if (text_size(look.fonts.small, name).x > kName - 4.0F) name = field.name;
-    const float line = text_size(look.fonts.small, name).y;
-    draw_text(look.fonts.small, {at.x, at.y + 0.5F * (look.m.row - line)}, look.theme->dim,
-              fitted(look.fonts.small, name, kName - 4.0F));
+    const std::string unit = field.unit.empty() ? "" : "  " + field.unit;
+    const ImVec2 room = text_size(look.fonts.small, unit);
+    draw_text(look.fonts.small, {at.x, at.y + 0.5F * (look.m.row - room.y)}, look.theme->dim,
+              fitted(look.fonts.small, field.name, kName - 4.0F - room.x) + unit);
     const auto count = static_cast<float>(field.values.size());
     const float each = (width - kName - kBetween * (count - 1.0F)) / count;
     bool refused = false;

@@ -1,6 +1,7 @@
 #include "core/import/kinematic_tree.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>

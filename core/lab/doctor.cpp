@@ -175,7 +175,7 @@ Scene shaken(const Scene& scene) {
 }
 
 /// Judges a run of one step per frame below its limit by the energy that the scheme keeps, and by
-/// what it lends: the true energy swings there, the more the closer the step is to the limit.
+/// by its excess: the true energy oscillates, the more the closer the step is to the limit.
 class ShadowVerdict {
  public:
   /// @param share of the limit [-]
@@ -200,8 +200,8 @@ class ShadowVerdict {
   }
   /// At the end of the run, or during it.
   void judge(double time) {
-    if (why_.empty() && energy_.lends_too_much(share_)) {
-      why_ = format_text("fails at %.3f s: oscillations grow, by %.4g J", time, energy_.lent());
+    if (why_.empty() && energy_.exceeds_stable(share_)) {
+      why_ = format_text("fails at %.3f s: oscillations grow, by %.4g J", time, energy_.excess());
     }
   }
   /// Why it fails; empty if it does not.

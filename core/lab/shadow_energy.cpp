@@ -37,30 +37,30 @@ bool ShadowEnergy::applies(const Scene& scene) {
 
 FrameReport ShadowEnergy::add(const Scene& scene, const State& state, const FrameReport& report) {
   double kinetic = 0.0;
-  double lent = 0.0;
+  double excess = 0.0;
   for (std::size_t i = 0; i < u_.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.is_static) continue;
     const Vec6 change = state.u[i] - u_[i];
     kinetic += 0.5 * u_[i].dot(momentum_of(body, q_[i], state.u[i]));
-    lent += 0.125 * change.dot(momentum_of(body, q_[i], change));
+    excess += 0.125 * change.dot(momentum_of(body, q_[i], change));
   }
   FrameReport before = report_;
   before.energy += kinetic - before.kinetic;
   before.kinetic = kinetic;
   kinetic_ = std::max(kinetic_, kinetic);
-  lent_ = std::max(lent_, lent);
+  excess_ = std::max(excess_, excess);
   u_ = state.u;
   q_ = state.q;
   report_ = report;
   return before;
 }
 
-// A tenth of the motion's energy besides: it is not all oscillation.
-bool ShadowEnergy::lends_too_much(double share) const {
+// Plus a tenth of the kinetic energy: accelerations are not all oscillation.
+bool ShadowEnergy::exceeds_stable(double share) const {
   constexpr double kBesides = 0.1;
   const double q = share * share;
-  return lent_ > (q / (1.0 - q) + kBesides) * kinetic_ + noise_;
+  return excess_ > (q / (1.0 - q) + kBesides) * kinetic_ + noise_;
 }
 
 }  // namespace substep

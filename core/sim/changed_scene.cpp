@@ -31,7 +31,8 @@ int find(const std::unordered_map<std::string_view, int>& by_name, std::string_v
   return found == by_name.end() ? -1 : found->second;
 }
 
-bool all_below(const std::vector<int>& kept, std::size_t count, std::size_t before) {
+/// Whether the entries are -1 or different indices of items before.
+bool is_selection(const std::vector<int>& kept, std::size_t count, std::size_t before) {
   if (kept.size() != count) return false;
   std::vector<char> taken(before);
   for (const int i : kept) {
@@ -118,7 +119,7 @@ class Renumbering {
     out.torque_change = of_motion(state_.torque_change, none);
     out.rotation = of_bodies(state_.rotation, RatePeak{});
     out.held = of_bodies(state_.held, RatePeak{});
-    out.rest = of_motion(state_.rest, 0.0);
+    out.rest.assign(state_.rest.empty() ? 0 : bodies.size(), 0.0);  // all wake
     for (std::size_t i = 0; i < bodies.size(); ++i) out.own.push_back(own(i));
     for (const StoredForce& force : state_.forces) {
       if (const auto id = id_of(force.id)) out.forces.emplace_back(force).id = *id;
@@ -153,7 +154,7 @@ class Renumbering {
     for (const int was : kept_.bodies) out.push_back(was < 0 ? of_new : before[index(was)]);
     return out;
   }
-  /// What a body that starts anew does not keep.
+  /// As of_bodies(), with the initial value for bodies that restart.
   template <class T>
   std::vector<T> of_motion(const std::vector<T>& before, const T& at_start) const {
     std::vector<T> out = of_bodies(before, at_start);
@@ -175,6 +176,10 @@ class Renumbering {
     return {starts_[i] ? 0.0 : state_.dt_previous_of(index(was)), r};
   }
 
+  [[nodiscard]] bool keeps_shape(int before, int now) const {
+    return before_.bodies[index(before)].shape.index() == changed_.bodies[index(now)].shape.index();
+  }
+
   /// The id of a constraint's force under the new indices, if it is kept.
   [[nodiscard]] std::optional<std::uint64_t> id_of(std::uint64_t id) const {
     if (is_contact_id(id)) {
@@ -182,8 +187,9 @@ class Renumbering {
       if (index(a) >= new_body_.size() || index(b) >= new_body_.size()) return std::nullopt;
       const int new_a = new_body_[index(a)];
       const int new_b = new_body_[index(b)];
-      // The features of a pair are those of its first and its second body.
+      // The features of a pair are those of the shapes of its first and its second body.
       if (new_a < 0 || new_b < 0 || (a < b) != (new_a < new_b)) return std::nullopt;
+      if (!keeps_shape(a, new_a) || !keeps_shape(b, new_b)) return std::nullopt;
       return contact_id(new_a, new_b, feature_of_contact(id));
     }
     const bool of_coordinate = CoordinateStage::is_id(id);
@@ -202,7 +208,7 @@ class Renumbering {
   const Kept& kept_;
   std::vector<int> new_body_;   // per body before
   std::vector<int> new_joint_;  // per joint before
-  std::vector<char> starts_;    // per body: it does not continue an earlier motion
+  std::vector<char> starts_;    // per body: it restarts
 };
 
 }  // namespace
@@ -221,16 +227,19 @@ Kept kept_by_name(const Scene& before, const Scene& changed) {
   };
   const auto joints = index_by_name(before.joints, name_of_joint);
   const auto joints_now = index_by_name(changed.joints, name_of_joint);
-  const auto before_of = [&](int body) { return body < 0 ? body : kept.bodies[index(body)]; };
+  const auto same_body = [&](int now, int then) {
+    if (now == kWorld || then == kWorld) return now == then;
+    return kept.bodies[index(now)] == then;
+  };
   for (const Joint& joint : changed.joints) {
     const JointBase& now = base(joint);
     int was = find(joints_now, now.name) >= 0 ? find(joints, now.name) : -1;
     if (was >= 0) {
       const Joint& old = before.joints[index(was)];
       const JointBase& then = base(old);
-      const bool same = old.index() == joint.index() && then.a == before_of(now.a) &&
-                        then.b == (now.b == kWorld ? kWorld : before_of(now.b)) &&
-                        then.anchor_a == now.anchor_a && then.anchor_b == now.anchor_b;
+      const bool same = old.index() == joint.index() && same_body(now.a, then.a) &&
+                        same_body(now.b, then.b) && then.anchor_a == now.anchor_a &&
+                        then.anchor_b == now.anchor_b;
       if (!same) was = -1;
     }
     kept.joints.push_back(was);
@@ -241,8 +250,8 @@ Kept kept_by_name(const Scene& before, const Scene& changed) {
 Scene continue_with(Scene changed, const Scene& before, const State& state, const Kept& kept) {
   changed.carried.reset();
   if (!is_runnable(changed) || !is_runnable(before) || !fits(state, before) ||
-      !all_below(kept.bodies, changed.bodies.size(), before.bodies.size()) ||
-      !all_below(kept.joints, changed.joints.size(), before.joints.size())) {
+      !is_selection(kept.bodies, changed.bodies.size(), before.bodies.size()) ||
+      !is_selection(kept.joints, changed.joints.size(), before.joints.size())) {
     return {};
   }
   if (state.frame == 0) return changed;

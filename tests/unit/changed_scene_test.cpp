@@ -155,7 +155,7 @@ class Editor {
 };
 
 // ------------------------------------------------------------------------------ untouched islands
-/// On a floor: three bodies to be edited, and beside them what nobody touches: a chain of unequal
+/// On a floor: three bodies to edit, and islands that no edit touches: a chain of unequal
 /// links, a stack that lands, a hinge with limit and motor, a slide on a spring.
 Scene islands() {
   SceneBuilder builder("islands");
@@ -302,10 +302,32 @@ TEST(ChangedScene, CarriesTheForcesOfContactsAndLimitsUnderTheirNewNumbers) {
   }
   EXPECT_GE(contacts, 8);
   EXPECT_GE(coordinates, 2);
-  // The pair in the other order has other features.
+  // Another shape has other features.
+  changed.bodies[11].shape = Sphere{0.3};
+  const Scene reshaped = continue_with(changed, before, state, kept_by_name(before, changed));
+  EXPECT_LT(reshaped.carried->forces.size(), state.forces.size());
+  changed.bodies[11].shape = before.bodies[10].shape;
+  // The pair in the other order too.
   std::swap(changed.bodies[9], changed.bodies[10]);
   const Scene turned = continue_with(changed, before, state, kept_by_name(before, changed));
   EXPECT_LT(turned.carried->forces.size(), state.forces.size());
+}
+
+TEST(ChangedScene, ASleepingBodyFallsWhenItsSupportIsRemoved) {
+  SceneBuilder builder("tower");
+  builder.add_fixed(Plane{}, Vec3::Zero());
+  for (int i = 0; i < 2; ++i) builder.add_body(Box{{0.5, 0.5, 0.5}}, 1.0, {0.0, 0.5 + i, 0.0});
+  Scene scene = *builder.build();
+  for (std::size_t i = 0; i < 3; ++i) scene.bodies[i].name = "body" + std::to_string(i);
+  substep::Settings sleeping;
+  sleeping.islands = sleeping.sleep = true;
+  Workshop shop(scene, sleeping);
+  FrameReport report;
+  for (int frame = 0; frame < 120; ++frame) report = shop.step();
+  ASSERT_EQ(report.asleep, 2);
+  shop.change([](Scene& now) { remove_body(now, 1); });
+  for (int frame = 0; frame < 60; ++frame) shop.step();
+  EXPECT_NEAR(shop.state().x[1].y(), 0.5, 1e-5);
 }
 
 TEST(ChangedScene, AReleasedBodyFliesOnAParabola) {
@@ -411,6 +433,10 @@ TEST(ChangedScene, NamesThatOccurTwiceAreNew) {
   Scene other = islands();
   base(other.joints[0]).anchor_a.x() += 0.1;
   EXPECT_EQ(kept_by_name(islands(), other).joints[0], -1) << "another joint of that name";
+  Scene held = islands();  // the joint with the world holds a new body now
+  held.bodies.push_back(ball_of("new", {-20.0, 6.0, 0.0}));
+  base(held.joints[0]).b = static_cast<int>(held.bodies.size()) - 1;
+  EXPECT_EQ(kept_by_name(islands(), held).joints[0], -1);
 }
 
 }  // namespace

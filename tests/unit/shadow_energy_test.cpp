@@ -53,7 +53,7 @@ Energies energies_of_run(double share, double believed) {
       least[j] = std::min(least[j], values[j]);
       most[j] = std::max(most[j], values[j]);
     }
-    grows = grows || energy.lends_too_much(believed);
+    grows = grows || energy.exceeds_stable(believed);
   }
   return {(most[0] - least[0]) / start.kinetic, (most[1] - least[1]) / start.kinetic, grows};
 }

@@ -80,6 +80,15 @@ class Headless {
     const float s = ui::interface_scale(app->desk, ImGui::GetIO().DisplaySize);
     click(0.5F * s * (handle->min.x + handle->max.x), 0.5F * s * (handle->min.y + handle->max.y));
   }
+  void press_key(ImGuiKey key, ImGuiKey modifier = ImGuiKey_None) {
+    ImGuiIO& io = ImGui::GetIO();
+    if (modifier != ImGuiKey_None) io.AddKeyEvent(modifier, true);
+    io.AddKeyEvent(key, true);
+    frames(1);
+    io.AddKeyEvent(key, false);
+    if (modifier != ImGuiKey_None) io.AddKeyEvent(modifier, false);
+    frames(2);
+  }
   void type(const char* text) {
     ImGui::GetIO().AddInputCharactersUTF8(text);
     frames(2);

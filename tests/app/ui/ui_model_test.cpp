@@ -327,16 +327,6 @@ TEST(ModelEdits, AThousandRandomChangesAreUndoneToTheSameBytes) {
 
 // In the window.
 
-void press_key(Headless& h, ImGuiKey code, ImGuiKey modifier = ImGuiKey_None) {
-  ImGuiIO& io = ImGui::GetIO();
-  if (modifier != ImGuiKey_None) io.AddKeyEvent(modifier, true);
-  io.AddKeyEvent(code, true);
-  h.frames(1);
-  io.AddKeyEvent(code, false);
-  if (modifier != ImGuiKey_None) io.AddKeyEvent(modifier, false);
-  h.frames(2);
-}
-
 /// Scrolls the panel until a control is in sight, and presses it.
 void press_in_panel(Headless& h, const std::string& label) {
   const ui::Handle* link = find_handle("selected body");
@@ -356,7 +346,7 @@ void press_in_panel(Headless& h, const std::string& label) {
 void type_in_field(Headless& h, const std::string& label, const char* text) {
   press_in_panel(h, label);
   h.type(text);
-  press_key(h, ImGuiKey_Enter);
+  h.press_key(ImGuiKey_Enter);
 }
 
 /// From the menu of scenes, by presses and keys alone.
@@ -411,7 +401,7 @@ TEST(ModelPanel, AValueOutOfRangeStaysWithTheMessageOfTheReader) {
   press_in_panel(h, "mass");
   EXPECT_STREQ(ImGui::GetCurrentContext()->InputTextState.TextA.Data, "-3");
   h.type("30");
-  press_key(h, ImGuiKey_Enter);
+  h.press_key(ImGuiKey_Enter);
   EXPECT_EQ(h.app->session.scene().bodies[6].mass, 30.0);
   EXPECT_EQ(h.app->desk.model.refused, "");
   EXPECT_EQ(h.app->desk.selected, 6);
@@ -422,25 +412,25 @@ TEST(ModelPanel, EscLeavesAFieldAndItsValue) {
   build_heavy_chain(h);
   press_in_panel(h, "mass");
   h.type("7");
-  press_key(h, ImGuiKey_Escape);
+  h.press_key(ImGuiKey_Escape);
   EXPECT_EQ(h.app->session.scene().bodies[6].mass, 1000.0);
   EXPECT_EQ(h.app->desk.model.typing, "");
   EXPECT_EQ(h.app->desk.selected, 6) << "a second Esc selects nothing";
-  press_key(h, ImGuiKey_Escape);
+  h.press_key(ImGuiKey_Escape);
   EXPECT_EQ(h.app->desk.selected, -1);
 }
 
 TEST(ModelPanel, UndoAndDeleteHaveKeys) {
   Headless h;
   build_heavy_chain(h);
-  press_key(h, ImGuiKey_Delete);
+  h.press_key(ImGuiKey_Delete);
   EXPECT_EQ(h.app->session.scene().bodies.size(), 6U);
   EXPECT_EQ(h.app->session.scene().joints.size(), 5U);
-  press_key(h, ImGuiKey_Z, ImGuiMod_Ctrl);
+  h.press_key(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(h.app->session.scene().bodies.size(), 7U);
-  press_key(h, ImGuiKey_Z, ImGuiMod_Ctrl);
+  h.press_key(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(h.app->session.scene().bodies[6].mass, 10.0);
-  press_key(h, ImGuiKey_Y, ImGuiMod_Ctrl);
+  h.press_key(ImGuiKey_Y, ImGuiMod_Ctrl);
   EXPECT_EQ(h.app->session.scene().bodies[6].mass, 1000.0);
 }
 

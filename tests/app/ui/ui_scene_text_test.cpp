@@ -349,16 +349,6 @@ double mass_of_body(const Headless& h, const std::string& name) {
   return 0.0;
 }
 
-void editor_key(Headless& h, ImGuiKey code, ImGuiKey modifier = ImGuiKey_None) {
-  ImGuiIO& io = ImGui::GetIO();
-  if (modifier != ImGuiKey_None) io.AddKeyEvent(modifier, true);
-  io.AddKeyEvent(code, true);
-  h.frames(1);
-  io.AddKeyEvent(code, false);
-  if (modifier != ImGuiKey_None) io.AddKeyEvent(modifier, false);
-  h.frames(2);
-}
-
 TEST(SceneEditor, AValidEditRunsFromItsStartAndAnInvalidOneDoesNot) {
   Headless h;
   open_editor(h, "swinging_box");
@@ -631,21 +621,21 @@ TEST(SceneEditor, TypingIsTextAndItsKeysAreItsOwn) {
   h.app->desk.scene_text.go_to(at + 4);
   h.frames(2);
   const bool dark = h.app->desk.dark;
-  editor_key(h, ImGuiKey_Backspace);
+  h.press_key(ImGuiKey_Backspace);
   h.type("t");
   EXPECT_EQ(h.app->desk.dark, dark);
   EXPECT_EQ(editor_text(h).substr(at, 4), "100t");
   EXPECT_FALSE(h.app->editor.text().problems().empty());
-  editor_key(h, ImGuiKey_Z, ImGuiMod_Ctrl);
+  h.press_key(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(editor_text(h).substr(at, 4), "100,") << "one step";
-  editor_key(h, ImGuiKey_Z, ImGuiMod_Ctrl);
+  h.press_key(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(editor_text(h), plain);
-  editor_key(h, ImGuiKey_Y, ImGuiMod_Ctrl);
-  editor_key(h, ImGuiKey_Y, ImGuiMod_Ctrl);
+  h.press_key(ImGuiKey_Y, ImGuiMod_Ctrl);
+  h.press_key(ImGuiKey_Y, ImGuiMod_Ctrl);
   EXPECT_EQ(editor_text(h).substr(at, 4), "100t");
   h.type("\xf0\x9f\x99\x82");
   EXPECT_EQ(editor_text(h).substr(at + 4, 4), "\xf0\x9f\x99\x82") << "all of Unicode";
-  editor_key(h, ImGuiKey_Escape);
+  h.press_key(ImGuiKey_Escape);
   EXPECT_FALSE(ImGui::GetIO().WantTextInput);
   EXPECT_EQ(editor_text(h).substr(at, 4), "100t") << "Esc leaves the field, and the text";
   h.type("e");
@@ -658,10 +648,10 @@ TEST(SceneEditor, ANewLineBeginsBelowTheOneBefore) {
   const std::size_t at = editor_text(h).find("\"bodies\": [") + 11;
   h.app->desk.scene_text.go_to(at);
   h.frames(3);
-  editor_key(h, ImGuiKey_Enter);
+  h.press_key(ImGuiKey_Enter);
   EXPECT_EQ(editor_text(h).substr(at, 6), "\n    \n");
   h.type("{");
-  editor_key(h, ImGuiKey_Enter);
+  h.press_key(ImGuiKey_Enter);
   EXPECT_EQ(editor_text(h).substr(at, 14), "\n    {\n      \n");
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/lab/stiffness.hpp"
 #include "app/render/contact_shadows.hpp"
+#include "core/math/turn.hpp"
 #include "core/model/joint_fields.hpp"
 
 namespace substep {
@@ -87,7 +88,7 @@ bool is_off_surface(const Shape& shape, const Vec3& point) {
 void add_rod(std::vector<Instance>& out, const Vec3& from, const Vec3& to, double half,
              const Color& color) {
   const Vec3 along = to - from;
-  add_box(out, 0.5 * (from + to), Quat::FromTwoVectors(Vec3::UnitY(), along),
+  add_box(out, 0.5 * (from + to), turn_between(Vec3::UnitY(), along),
           Vec3(half, 0.5 * along.norm(), half), color);
 }
 
@@ -334,13 +335,13 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
     } else if (const auto pins = crossing_axes_of(joint)) {
       const Quat q_b = j.b == kWorld ? Quat(Quat::Identity()) : poses.q[b];
       for (const Vec3& pin : {Vec3(poses.q[a] * pins->a), Vec3(q_b * pins->b)}) {
-        add_box(out.boxes, x, Quat::FromTwoVectors(Vec3::UnitZ(), pin), r * Vec3(0.5, 0.5, 1.5),
-                0.45 * r, palette.joint);
+        add_box(out.boxes, x, turn_between(Vec3::UnitZ(), pin), r * Vec3(0.5, 0.5, 1.5), 0.45 * r,
+                palette.joint);
       }
     } else if (const auto axes = axes_of(joint)) {
       // The path from the anchor on b.
       if (axes->slides && from != x) add_rod(out.boxes, from, x, 0.3 * r, palette.joint);
-      const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * axes->a);
+      const Quat along = turn_between(Vec3::UnitZ(), poses.q[a] * axes->a);
       add_box(out.boxes, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);
       const AngleLimit* limit = angle_limit_of(joint);
       if (limit != nullptr && scene.effects.limits) {

@@ -13,9 +13,9 @@ namespace substep {
 namespace {
 
 // Parts of the width.
-constexpr double kClosed = 1e-2;     // limits that are closer than this have rows
-constexpr double kMargin = 1.0;      // or, with rows for open limits, besides the motion
-constexpr double kRounding = 1e-11;  // of the coordinate where a limit closes
+constexpr double kClosed = 1e-2;             // limits that are closer than this have rows
+constexpr double kMargin = 1.0;              // or, with rows for open limits, besides the motion
+constexpr double kRoundingOfTravel = 1e-11;  // of the coordinate where a limit closes
 
 using Acts = CoordinateStage::Acts;
 
@@ -241,14 +241,14 @@ SweptContacts::Found CoordinateStage::sweep(const SweptContacts::Sweep& sweep, s
       const auto above_floor = [&](double time) { return gap_at(time) - floor; };
       earliest_ =
           std::min(earliest_, closing_time(above_floor, start.phi[0] - floor, 0.0, gap - floor,
-                                           sweep.dt, kRounding * placed.width));
+                                           sweep.dt, kRoundingOfTravel * placed.width));
       row.curved = gap - (row.phi[0] + sweep.dt * normal_speed(row, sweep.w));
       all = std::max(all, Found::kOverlaps);
       return;
     }
     if (gap >= 0.0 || start.phi[0] <= 0.0) return;
     const double time =
-        closing_time(gap_at, start.phi[0], 0.0, gap, sweep.until, kRounding * placed.width);
+        closing_time(gap_at, start.phi[0], 0.0, gap, sweep.until, kRoundingOfTravel * placed.width);
     placed.row = blocks.size();
     Block& row = blocks.append();
     row = start;

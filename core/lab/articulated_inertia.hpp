@@ -14,8 +14,6 @@
 // The force and torque of a child at its joint, with the free part of alpha eliminated because no
 // torque acts there, have the same form; shifted to p they add to the parent's.
 
-#include <Eigen/Cholesky>
-
 #include "core/math/types.hpp"
 
 namespace substep {
@@ -29,15 +27,7 @@ struct ArticulatedInertia {
 
   /// One body. @param I about its centre, world axes [kg m^2] @param r from p to the centre [m]
   /// @param omega [rad/s]
-  static ArticulatedInertia of_body(double mass, const Mat3& I, const Vec3& r, const Vec3& omega) {
-    ArticulatedInertia body;
-    body.A = I - mass * skew_product(r, r);
-    body.B = mass * skew(r);
-    body.M = mass * Mat3::Identity();
-    body.force_bias = mass * omega.cross(omega.cross(r));
-    body.torque_bias = omega.cross(I * omega) + r.cross(body.force_bias);
-    return body;
-  }
+  static ArticulatedInertia of_body(double mass, const Mat3& I, const Vec3& r, const Vec3& omega);
 
   [[nodiscard]] Vec3 torque(const Vec3& alpha, const Vec3& a) const {
     return A * alpha + B * a + torque_bias;
@@ -47,20 +37,9 @@ struct ArticulatedInertia {
   }
 
   /// alpha of a ball joint, which transmits no torque: A alpha + B a + torque_bias = 0.
-  [[nodiscard]] Vec3 ball_acceleration(const Vec3& a) const {
-    return -A.llt().solve(Vec3(B * a + torque_bias));
-  }
+  [[nodiscard]] Vec3 ball_acceleration(const Vec3& a) const;
   /// This with alpha eliminated by a ball joint: M - B^T A^-1 B and its bias remain.
-  [[nodiscard]] ArticulatedInertia behind_ball() const {
-    const Eigen::LLT<Mat3> factor(A);
-    ArticulatedInertia left;
-    left.A.setZero();
-    left.B.setZero();
-    left.M = M - B.transpose() * factor.solve(B);
-    left.torque_bias.setZero();
-    left.force_bias = force_bias - B.transpose() * factor.solve(torque_bias);
-    return left;
-  }
+  [[nodiscard]] ArticulatedInertia behind_ball() const;
 
   /// theta'' of a hinge, alpha = alpha_before + h theta'', which transmits the torque -armature
   /// theta'' along h.
@@ -70,46 +49,16 @@ struct ArticulatedInertia {
   }
   /// This with theta'' eliminated by a hinge, as a function of alpha_before and a.
   /// @param h its axis, unit  @param armature of its angle [kg m^2]
-  [[nodiscard]] ArticulatedInertia behind_hinge(const Vec3& h, double armature) const {
-    const Vec3 Ah = A * h;
-    const Vec3 Bh = B.transpose() * h;
-    const double inertia = h.dot(Ah) + armature;
-    const Vec3 per_torque = Ah / inertia;
-    const Vec3 per_force = Bh / inertia;
-    ArticulatedInertia left;
-    left.A = A - per_torque * Ah.transpose();
-    left.B = B - per_torque * Bh.transpose();
-    left.M = M - per_force * Bh.transpose();
-    left.torque_bias = torque_bias - h.dot(torque_bias) * per_torque;
-    left.force_bias = force_bias - h.dot(torque_bias) * per_force;
-    return left;
-  }
+  [[nodiscard]] ArticulatedInertia behind_hinge(const Vec3& h, double armature) const;
 
   /// alpha and a of a free body: force and torque are zero.
-  [[nodiscard]] Vec6 free_acceleration() const {
-    Mat6 whole;
-    whole << M, B.transpose(), B, A;
-    Vec6 bias;
-    bias << force_bias, torque_bias;
-    return -whole.llt().solve(bias);  // linear first
-  }
+  [[nodiscard]] Vec6 free_acceleration() const;
 
   /// Adds a child that was eliminated behind its joint.
   /// @param l from p to the child's joint [m] @param alpha_bias, a_bias difference of the child's
   /// alpha_before and a from alpha and a - [l] alpha of this body [rad/s^2, m/s^2]
   void add(const ArticulatedInertia& child, const Vec3& l, const Vec3& alpha_bias,
-           const Vec3& a_bias) {
-    // torque += torque_c + l x force_c, with a_c = a - [l] alpha.
-    const Mat3 lx = skew(l);
-    const Mat3 lM = lx * child.M;
-    const Mat3 Bl = child.B * lx;
-    A += child.A - (Bl + Bl.transpose()) - lM * lx;
-    B += child.B + lM;
-    M += child.M;
-    const Vec3 force = child.force(alpha_bias, a_bias);
-    torque_bias += child.torque(alpha_bias, a_bias) + l.cross(force);
-    force_bias += force;
-  }
+           const Vec3& a_bias);
 };
 
 }  // namespace substep

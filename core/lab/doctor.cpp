@@ -9,6 +9,7 @@
 #include "core/lab/shadow_energy.hpp"
 #include "core/lab/velocity_forces.hpp"
 #include "core/lab/verdict.hpp"
+#include "core/math/dense.hpp"
 #include "core/math/random.hpp"
 #include "core/model/format_text.hpp"
 #include "core/model/joint_fields.hpp"
@@ -56,12 +57,11 @@ Explicit explicit_of(const LinearModel::DriveTerm& drive, const DoctorQuestion& 
 LinearSystem system_of(const LinearModel& model, const DoctorQuestion& question) {
   LinearSystem system{model.mass(), model.geometric() - model.springs(), {}};
   for (const LinearModel::DriveTerm& drive : model.drives()) {
-    const Eigen::MatrixXd square = drive.coordinate * drive.coordinate.transpose();
     const Explicit is = explicit_of(drive, question);
-    system.stiffness += (is.stiffness ? drive.stiffness : -drive.stiffness) * square;
-    if (system.damping.size() == 0)
-      system.damping = Eigen::MatrixXd::Zero(model.size(), model.size());
-    system.damping += (is.damping ? -drive.damping : drive.damping) * square;
+    add_square(system.stiffness, is.stiffness ? drive.stiffness : -drive.stiffness,
+               drive.coordinate);
+    if (system.damping.size() == 0) system.damping = AnyMatrix::Zero(model.size(), model.size());
+    add_square(system.damping, is.damping ? -drive.damping : drive.damping, drive.coordinate);
   }
   return system;
 }
@@ -77,12 +77,12 @@ GroupLimit limit_of(const LinearModel& model, std::size_t group, double time,
   limit.geometric = known(geometric.step);
   const StepLimit all = largest_step(system_of(model, question));
   limit.step = known(all.step);
-  const Eigen::VectorXd& mode = all.mode.size() > 0 ? all.mode : geometric.mode;
+  const AnyVector& mode = all.mode.size() > 0 ? all.mode : geometric.mode;
   if (mode.size() == 0) return limit;
   const double h = all.mode.size() > 0 ? all.step : geometric.step;
   limit.bodies = model.bodies_of(mode);
   limit.joints = model.joints_of(mode);
-  double sum = h * h * mode.dot(model.geometric() * mode);
+  double sum = h * h * mode.dot(product(model.geometric(), mode));
   for (const LinearModel::DriveTerm& drive : model.drives()) {
     const double moved = std::pow(drive.coordinate.dot(mode), 2);
     double by = 0.0;

@@ -1,7 +1,5 @@
 #include "core/lab/linear_model.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +7,7 @@
 #include "core/constraints/coordinate_stage.hpp"
 #include "core/constraints/joint_stage.hpp"
 #include "core/forces/applied_forces.hpp"
+#include "core/math/dense.hpp"
 #include "core/math/gyroscopic.hpp"
 #include "core/model/joint_fields.hpp"
 #include "core/model/validate.hpp"
@@ -19,9 +18,6 @@
 
 namespace substep {
 namespace {
-
-using AnyMatrix = Eigen::MatrixXd;
-using AnyVector = Eigen::VectorXd;
 
 constexpr double kDependentRow = 1e-9;  // of rows scaled to 1: below it others imply one
 constexpr double kStiff =
@@ -64,6 +60,27 @@ std::vector<Part> groups_of(const Scene& scene) {
     groups[index(group_of[index(body)])].joints.push_back(static_cast<int>(j));
   }
   return groups;
+}
+
+/// L^-1 of a symmetric positive definite matrix L L^T.
+Mat3 inverse_of_half(const Mat3& of) {
+  Mat3 L = Mat3::Zero();
+  Mat3 inverse = Mat3::Zero();
+  for (int j = 0; j < 3; ++j) {
+    for (int i = j; i < 3; ++i) {
+      double left = of(i, j);
+      for (int k = 0; k < j; ++k) left -= L(i, k) * L(j, k);
+      L(i, j) = i == j ? std::sqrt(left) : left / L(j, j);
+    }
+  }
+  for (int j = 0; j < 3; ++j) {
+    for (int i = j; i < 3; ++i) {
+      double left = i == j ? 1.0 : 0.0;
+      for (int k = j; k < i; ++k) left -= L(i, k) * inverse(k, j);
+      inverse(i, j) = left / L(i, i);
+    }
+  }
+  return inverse;
 }
 
 void sort_by_share(std::vector<LinearModel::Share>& shares) {
@@ -271,17 +288,17 @@ class LinearModel::Builder {
         W.col(i) = times_inverse_mass(row.J);
         right[i] = -row.curvature - row.J.dot(pushed);
       }
-      AnyMatrix S = J * W;
+      AnyMatrix S = product(J, W);
       for (Eigen::Index i = 0; i < n; ++i) {
         S(i, i) += rows[active[static_cast<std::size_t>(i)]].softness;
         scale[i] = S(i, i) > 0.0 ? 1.0 / std::sqrt(S(i, i)) : 0.0;
       }
-      S = scale.asDiagonal() * S * scale.asDiagonal();
-      Eigen::CompleteOrthogonalDecomposition<AnyMatrix> factor;
-      factor.setThreshold(kDependentRow);
-      factor.compute(S);
-      const AnyVector scaled = scale.cwiseProduct(right);
-      const AnyVector lambda = scale.cwiseProduct(factor.solve(scaled));
+      for (Eigen::Index j = 0; j < n; ++j) {
+        for (Eigen::Index i = 0; i < n; ++i) S(i, j) *= scale[i] * scale[j];
+        right[j] *= scale[j];
+      }
+      AnyVector lambda = least_norm_solution(S, right, kDependentRow);
+      for (Eigen::Index i = 0; i < n; ++i) lambda[i] *= scale[i];
       bool beyond = false;
       for (Eigen::Index i = 0; i < n; ++i) {
         auto& row = rows[active[static_cast<std::size_t>(i)]];
@@ -310,19 +327,22 @@ class LinearModel::Builder {
   // With M = L L^T: q = L^-T Z y, Z an orthonormal basis of what leaves J L^-T unchanged, so that
   // rows and directions have no units. M is 1 without armatures.
   void set_basis(LinearModel& model) const {
-    std::vector<AnyVector> rigid;
-    std::vector<Eigen::LLT<Mat3>> turning;
-    for (Eigen::Index i = 0; i < size_ / 6; ++i) {
-      turning.emplace_back(Mat3(model.body_mass_.block<3, 3>(3, 6 * i + 3)));
+    const Eigen::Index bodies = size_ / 6;
+    const auto body_of = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
+    std::vector<double> moving;  // L^-1 of a body's mass [1/sqrt(kg)]
+    std::vector<Mat3> turning;   // L^-1 of its moments [1/(m sqrt(kg))]
+    for (Eigen::Index i = 0; i < bodies; ++i) {
+      moving.push_back(1.0 / std::sqrt(model.body_mass_(0, 6 * i)));
+      turning.push_back(inverse_of_half(model.body_mass_.block<3, 3>(3, 6 * i + 3)));
     }
     const auto half = [&](AnyVector v) {  // L^-1 v
-      for (Eigen::Index i = 0; i < size_ / 6; ++i) {
-        v.segment<3>(6 * i) /= std::sqrt(model.body_mass_(0, 6 * i));
-        v.segment<3>(6 * i + 3) =
-            turning[static_cast<std::size_t>(i)].matrixL().solve(v.segment<3>(6 * i + 3)).eval();
+      for (Eigen::Index i = 0; i < bodies; ++i) {
+        v.segment<3>(6 * i) *= moving[body_of(i)];
+        v.segment<3>(6 * i + 3) = turning[body_of(i)] * Vec3(v.segment<3>(6 * i + 3));
       }
       return v;
     };
+    std::vector<AnyVector> rigid;
     for (std::size_t i = 0; i < joint_blocks_; ++i) {
       const Block& block = blocks_.all()[i];
       for (int row = 0; row < block.rows; ++row) {
@@ -333,23 +353,16 @@ class LinearModel::Builder {
       }
     }
     const auto n = static_cast<Eigen::Index>(rigid.size());
-    Eigen::Index rank = 0;
-    AnyMatrix Z = AnyMatrix::Identity(size_, size_);
-    if (n > 0) {
-      AnyMatrix all(size_, n);
-      for (Eigen::Index i = 0; i < n; ++i) all.col(i) = rigid[static_cast<std::size_t>(i)];
-      Eigen::ColPivHouseholderQR<AnyMatrix> factor;
-      factor.setThreshold(kDependentRow);
-      factor.compute(all);
-      rank = factor.rank();
-      Z = factor.householderQ() * AnyMatrix::Identity(size_, size_);
-    }
-    model.redundant_ = static_cast<int>(n - rank);
-    AnyMatrix basis = Z.rightCols(size_ - rank);
-    for (Eigen::Index i = 0; i < size_ / 6; ++i) {
-      basis.middleRows<3>(6 * i) /= std::sqrt(model.body_mass_(0, 6 * i));
-      basis.middleRows<3>(6 * i + 3) = turning[static_cast<std::size_t>(i)].matrixU().solve(
-          AnyMatrix(basis.middleRows<3>(6 * i + 3)));
+    AnyMatrix all(size_, n);
+    for (Eigen::Index i = 0; i < n; ++i) all.col(i) = rigid[static_cast<std::size_t>(i)];
+    AnyMatrix basis = orthogonal_complement(all, kDependentRow);
+    model.redundant_ = static_cast<int>(n - (size_ - basis.cols()));
+    for (Eigen::Index i = 0; i < bodies; ++i) {
+      const Mat3 turn = turning[body_of(i)].transpose();
+      for (Eigen::Index j = 0; j < basis.cols(); ++j) {
+        basis.block<3, 1>(6 * i, j) *= moving[body_of(i)];
+        basis.block<3, 1>(6 * i + 3, j) = turn * Vec3(basis.block<3, 1>(6 * i + 3, j));
+      }
     }
     model.basis_ = std::move(basis);
   }
@@ -359,12 +372,12 @@ class LinearModel::Builder {
     const Eigen::Index free = basis.cols();
     model.mass_ = AnyMatrix::Identity(free, free);
     model.springs_ = AnyMatrix::Zero(free, free);
-    AnyMatrix geometric = AnyMatrix::Zero(free, free);
+    AnyMatrix stiffened = AnyMatrix::Zero(size_, free);  // -K times the basis
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       const Block& block = blocks_.all()[i];
       const int joint =
           i < joint_blocks_ ? static_cast<int>(block.id) : CoordinateStage::joint_of(block.id);
-      add_stiffness(block, joint, model, geometric);
+      add_stiffness(block, joint, model, stiffened);
       if (i < joint_blocks_) {
         add_compliance(block, model);
         double square = 0.0;
@@ -374,17 +387,18 @@ class LinearModel::Builder {
         model.largest_force_ = std::max(model.largest_force_, std::sqrt(square));
         continue;
       }
-      const AnyVector coordinate = basis.transpose() * row_of(block, 0);
+      const AnyVector coordinate = transposed_product(basis, row_of(block, 0));
       if (is_armature(block)) {
-        model.mass_ += block.armature * coordinate * coordinate.transpose();
+        add_square(model.mass_, block.armature, coordinate);
       } else if (is_drive(block)) {
         const Drive drive = stage_->drive(block);
         model.drives_.push_back(
             {joint, coordinate, 0.0, drive.stiffness, drive.damping, is_joint_spring(block)});
       }
     }
+    const AnyMatrix geometric = transposed_product(basis, stiffened);
     model.geometric_ = 0.5 * (geometric + geometric.transpose());
-    const Eigen::LLT<AnyMatrix> factor(model.mass_);
+    const Cholesky factor(model.mass_);
     for (DriveTerm& drive : model.drives_) {
       const double mobility = drive.coordinate.dot(factor.solve(drive.coordinate));
       drive.inertia = mobility > 0.0 ? 1.0 / mobility : kNoLimit;
@@ -393,7 +407,7 @@ class LinearModel::Builder {
   }
 
   void add_stiffness(const Block& block, int joint, LinearModel& model,
-                     AnyMatrix& geometric) const {
+                     AnyMatrix& stiffened) const {
     const auto place = [&](int body) { return body < 0 ? -1 : place_[index(body)]; };
     StiffnessMatrix K;
     K.clear(2);  // of the block's own bodies, 0 and 1
@@ -410,8 +424,10 @@ class LinearModel::Builder {
         if (places[on] < 0 || places[by] < 0) continue;
         term.blocks[on][by] = -K.block(on, by);
         any = any || !term.blocks[on][by].isZero(0.0);
-        geometric += model.basis_.middleRows<6>(6 * places[on]).transpose() * term.blocks[on][by] *
-                     model.basis_.middleRows<6>(6 * places[by]);
+        for (Eigen::Index j = 0; j < stiffened.cols(); ++j) {
+          stiffened.block<6, 1>(6 * places[on], j) +=
+              term.blocks[on][by] * Vec6(model.basis_.block<6, 1>(6 * places[by], j));
+        }
       }
     }
     if (any) model.terms_.push_back(term);
@@ -420,8 +436,8 @@ class LinearModel::Builder {
   void add_compliance(const Block& block, LinearModel& model) const {
     for (int row = 0; row < block.rows; ++row) {
       if (is_rigid(block, row)) continue;
-      const AnyVector coordinate = model.basis_.transpose() * row_of(block, row);
-      model.springs_ += 1.0 / block.C[row] * coordinate * coordinate.transpose();
+      add_square(model.springs_, 1.0 / block.C[row],
+                 transposed_product(model.basis_, row_of(block, row)));
     }
   }
 
@@ -444,7 +460,7 @@ class LinearModel::Builder {
     stage.append(part, state_, R_WB_, scene_.frame, true, rows);
     for (const Block& row : rows.all()) {
       model.coordinates_.push_back(
-          {CoordinateStage::joint_of(row.id), model.basis_.transpose() * row_of(row, 0)});
+          {CoordinateStage::joint_of(row.id), transposed_product(model.basis_, row_of(row, 0))});
     }
   }
 
@@ -481,13 +497,13 @@ std::vector<LinearModel> LinearModel::of(const Scene& scene, const State& state)
 }
 
 std::vector<LinearModel::Share> LinearModel::bodies_of(const Eigen::VectorXd& mode) const {
-  const AnyVector moved = basis_ * mode;
-  const double all = mode.dot(mass_ * mode);
+  const AnyVector moved = product(basis_, mode);
+  const double all = mode.dot(product(mass_, mode));
   std::vector<Share> shares;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto at = 6 * static_cast<Eigen::Index>(i);
     const Vec6 of = moved.segment<6>(at);
-    const Vec6 momentum = body_mass_.middleCols<6>(at) * of;
+    const Vec6 momentum = Mat6(body_mass_.middleCols<6>(at)) * of;
     shares.push_back({bodies_[i], of.dot(momentum) / all});
   }
   sort_by_share(shares);
@@ -495,8 +511,8 @@ std::vector<LinearModel::Share> LinearModel::bodies_of(const Eigen::VectorXd& mo
 }
 
 std::vector<LinearModel::Share> LinearModel::joints_of(const Eigen::VectorXd& mode) const {
-  const AnyVector moved = basis_ * mode;
-  const double all = mode.dot(geometric_ * mode);
+  const AnyVector moved = product(basis_, mode);
+  const double all = mode.dot(product(geometric_, mode));
   std::vector<Share> shares;
   if (!(all > 0.0)) return shares;
   for (const JointTerm& term : terms_) {
@@ -505,8 +521,8 @@ std::vector<LinearModel::Share> LinearModel::joints_of(const Eigen::VectorXd& mo
     for (int on = 0; on < 2; ++on) {
       for (int by = 0; by < 2; ++by) {
         if (places[on] < 0 || places[by] < 0) continue;
-        sum += moved.segment<6>(6 * places[on])
-                   .dot(term.blocks[on][by] * moved.segment<6>(6 * places[by]));
+        const Vec6 pushed = term.blocks[on][by] * Vec6(moved.segment<6>(6 * places[by]));
+        sum += moved.segment<6>(6 * places[on]).dot(pushed);
       }
     }
     const auto same = std::find_if(shares.begin(), shares.end(),

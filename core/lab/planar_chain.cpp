@@ -1,8 +1,7 @@
 #include "core/lab/planar_chain.hpp"
 
-#include <Eigen/Cholesky>
-
 #include "core/forces/applied_forces.hpp"
+#include "core/math/dense.hpp"
 #include "core/model/validate.hpp"
 
 namespace substep {
@@ -147,7 +146,7 @@ void PlanarChain::slope(const Vector& y, Vector& dy) const {
   }
   dy.resize(2 * n);
   dy.head(n) = y.tail(n);
-  dy.tail(n) = Eigen::LLT<Eigen::MatrixXd, Eigen::Lower>(M).solve(force);
+  dy.tail(n) = Cholesky(M).solve(force);
 }
 
 void PlanarChain::advance(double seconds) {

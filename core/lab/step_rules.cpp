@@ -1,9 +1,9 @@
 #include "core/lab/step_rules.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "core/math/dense.hpp"
 
 namespace substep {
 
@@ -41,8 +41,6 @@ double armature_for(const OneCoordinate& of, double h) {
 
 namespace {
 
-using Eigenpairs = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
-
 /// The larger root s of 4 s^2 + 2 s b - a, or 0 if it is not negative anywhere above 0.
 double larger_root(double a, double b) {
   const double square = b * b + 4.0 * a;
@@ -57,32 +55,31 @@ double larger_root(double a, double b) {
 StepLimit largest_step(const LinearSystem& of) {
   StepLimit limit;
   if (of.mass.rows() == 0) return limit;
-  const Eigen::LLT<Eigen::MatrixXd> factor(of.mass);
-  const auto reduced = [&](const Eigen::MatrixXd& matrix) {
-    const Eigen::MatrixXd half = factor.matrixL().solve(matrix);
-    const Eigen::MatrixXd both = factor.matrixL().solve(half.transpose());
-    return Eigen::MatrixXd(0.5 * (both + both.transpose()));
+  const Cholesky factor(of.mass);
+  const auto reduced = [&](const AnyMatrix& matrix) {
+    const AnyMatrix both = factor.solve_lower(factor.solve_lower(matrix).transpose());
+    return AnyMatrix(0.5 * (both + both.transpose()));
   };
-  const Eigen::MatrixXd A = reduced(of.stiffness);
+  const AnyMatrix A = reduced(of.stiffness);
   const bool damped = of.damping.size() > 0;
-  const Eigen::MatrixXd B = damped ? reduced(of.damping) : Eigen::MatrixXd();
+  const AnyMatrix B = damped ? reduced(of.damping) : AnyMatrix();
   constexpr double kRounding = 1e-14;
   double s = 0.0;
-  const auto rises = [&](const Eigen::VectorXd& x) {
-    const double root = larger_root(x.dot(A * x), damped ? x.dot(B * x) : 0.0);
+  const auto rises = [&](const AnyVector& x) {
+    const double root = larger_root(x.dot(product(A, x)), damped ? x.dot(product(B, x)) : 0.0);
     if (!(root > s * (1.0 + kRounding))) return false;
     s = root;
-    limit.mode = factor.matrixU().solve(x);
+    limit.mode = factor.solve_upper(x);
     return true;
   };
-  rises(Eigenpairs(-A).eigenvectors().col(0));
+  rises(eigenvector_of_smallest(-A));
   if (damped) {
     constexpr int kMostRounds = 100;
-    rises(Eigenpairs(B).eigenvectors().col(0));
+    rises(eigenvector_of_smallest(B));
     for (int i = 0; i < kMostRounds; ++i) {
-      Eigen::MatrixXd P = 2.0 * s * B - A;
+      AnyMatrix P = 2.0 * s * B - A;
       P.diagonal().array() += 4.0 * s * s;
-      if (!rises(Eigenpairs(P).eigenvectors().col(0))) break;
+      if (!rises(eigenvector_of_smallest(P))) break;
     }
   }
   if (s > 0.0) limit.step = 1.0 / s;

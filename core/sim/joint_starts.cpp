@@ -13,7 +13,7 @@ namespace substep {
 namespace {
 
 constexpr double kRelative = 1e-9;  // of lengths, angles and velocities [-]
-constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();  // [-]
+constexpr double kRoundingOfAnchors = 4.0 * std::numeric_limits<double>::epsilon();  // [-]
 
 /// Mean of J M^-1 J^T over some rows of a block [1/kg or 1/(kg m^2)].
 double mean_inverse_mass(const Block& block, int first, int last,
@@ -75,7 +75,8 @@ JointStart measured(const Scene& scene, const State& state, const Block& block,
     start.tilt = std::asin(std::min(1.0, sine));
     start.turning = norm(speeds, positions, block.rows);
   }
-  const double length = kRelative * size_of_joint(scene, joint) + kRounding * size.distance;
+  const double length =
+      kRelative * size_of_joint(scene, joint) + kRoundingOfAnchors * size.distance;
   start.beyond.gap = !(start.gap <= length);
   start.beyond.tilt = !(sine <= kRelative);
   // At a lower speed a joint opens by less than kRelative of its size in a frame.

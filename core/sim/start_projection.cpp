@@ -16,7 +16,8 @@
 namespace substep {
 namespace {
 
-constexpr double kClosed = 1e-13;  // error, of the joint's size or in rad, that ends an iteration
+constexpr double kClosedError =
+    1e-13;  // error, of the joint's size or in rad, that ends an iteration
 // Softness of a joint's anchors if only its axes are rigid, relative to 1/m: negligible impulse
 // without loss of precision [-].
 constexpr double kFree = 1e8;
@@ -159,7 +160,7 @@ bool onto_joints(StartRows& rows, State& state) {
   std::vector<Vec6> step(state.x.size());
   rows.update();
   double error = rows.error();
-  for (int i = 0; i < kMostClosing && error > kClosed; ++i) {
+  for (int i = 0; i < kMostClosing && error > kClosedError; ++i) {
     const State before = state;
     double share = 1.0;
     double next = error;
@@ -213,7 +214,7 @@ void to_least_change(StartRows& rows, const State& start, State& state) {
       rows.update();
       return;
     }
-    if (size <= kClosed * (1.0 + largest(moved))) return;
+    if (size <= kClosedError * (1.0 + largest(moved))) return;
     last = size;
   }
 }

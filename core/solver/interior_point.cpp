@@ -8,8 +8,9 @@ namespace substep {
 namespace {
 
 constexpr int kMostIterations = 40;
-constexpr double kInside = 0.995;   // of the way to the nearest bound
-constexpr double kRounding = 1e-8;  // of the first mean product: below it rounding may end the fall
+constexpr double kInside = 0.995;  // of the way to the nearest bound
+constexpr double kRoundedMean =
+    1e-8;  // of the first mean product: below it rounding may end the fall
 
 }  // namespace
 
@@ -161,7 +162,7 @@ bool InteriorPoint::advance(const System& system, double end, SaddleLdlt& ldlt) 
     const double before = mean_;
     if (!iterate(system, ldlt) || static_cast<double>(ldlt.flops()) > system.limits.work) break;
     mean_ = mean_product(0.0);
-    if (mean_ < kRounding * first_ && mean_ > 0.5 * before) break;
+    if (mean_ < kRoundedMean * first_ && mean_ > 0.5 * before) break;
   }
   for (const Row& r : rows_) ldlt.touch(r.block);
   choose_sets(system);

@@ -17,6 +17,7 @@
 
 #include "core/io/scene_writer.hpp"
 #include "core/math/random.hpp"
+#include "core/math/turn.hpp"
 #include "core/model/format_text.hpp"
 #include "core/model/scene_builder.hpp"
 #include "core/sim/start.hpp"
@@ -78,7 +79,7 @@ class Mechanism {
         {0.5 * length, length * dice_.number(0.02, 0.3), length * dice_.number(0.02, 0.3)}};
     const int body = builder_.add_body(shape, dice_.scale(0.05, 50.0), 0.5 * (from + to));
     builder_.body(body).orientation =
-        Quat::FromTwoVectors(Vec3::UnitX(), along) *
+        turn_between(Vec3::UnitX(), along) *
         Quat{Eigen::AngleAxisd(dice_.number(-3.0, 3.0), Vec3::UnitX())};
     builder_.body(body).velocity = dice_.vector(10.0);
     builder_.body(body).angular_velocity = dice_.vector(30.0);
@@ -370,7 +371,7 @@ Scene random_heap(int seed, bool limbs_touch) {
       const Shape shape =
           dice.whole(0, 3) == 0 ? Shape{Sphere{0.8 * half}} : Shape{Box{{half, width, width}}};
       const int body = builder.add_body(shape, dice.scale(0.3, 10.0), centre);
-      builder.body(body).orientation.setFromTwoVectors(Vec3::UnitX(), along);
+      builder.body(body).orientation = turn_between(Vec3::UnitX(), along);
       builder.body(body).friction = dice.number(0.2, 1.0);
       if (!limbs_touch) builder.body(body).collision_group = tree + 1;
       if (i > 0 && dice.whole(0, 1) == 0) {

@@ -11,6 +11,7 @@
 
 #include "core/lab/verdict.hpp"
 #include "core/math/angle.hpp"
+#include "core/math/turn.hpp"
 #include "core/model/scene_builder.hpp"
 #include "core/model/validate.hpp"
 #include "core/sim/conserved.hpp"
@@ -309,7 +310,7 @@ TEST(Drives, OfAFreePairMoveItsReducedMass) {
     const int b = builder.add_body(Box{{0.2, 0.1, 0.1}}, 0.7, -0.4 * rail);
     for (const int body : {a, b}) {
       builder.body(body).collides = false;
-      builder.body(body).orientation = Quat::FromTwoVectors(Vec3::UnitX(), rail);
+      builder.body(body).orientation = turn_between(Vec3::UnitX(), rail);
     }
     const int joint = hinged ? builder.add_hinge(a, b, Vec3::Zero(), rail)
                              : builder.add_prismatic(a, b, Vec3::Zero(), rail);
@@ -403,7 +404,7 @@ TEST(Drives, OfRandomLinkagesStayFinite) {
       const Vec3 along = vector().normalized();
       const double mass = std::exp(uniform(-3.0, 3.0));
       const int body = builder.add_body(Box{{half, 0.05, 0.03}}, mass, at + half * along);
-      builder.body(body).orientation = Quat::FromTwoVectors(Vec3::UnitX(), along);
+      builder.body(body).orientation = turn_between(Vec3::UnitX(), along);
       builder.body(body).collides = false;
       if (i > 0 || seed % 4 > 0) {
         const bool slides = random() % 3 == 0;

@@ -6,6 +6,7 @@
 
 #include "core/lab/closed_form.hpp"
 #include "core/lab/planar_chain.hpp"
+#include "core/math/turn.hpp"
 #include "core/sim/conserved.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/paper_settings.hpp"
@@ -122,7 +123,7 @@ TEST(ExternalForce, HoldsAPendulumAsideWithEverySolver) {
     Body rod = body_of(Box{{0.1, 0.5, 0.1}}, 2.0);
     rod.force = {3.0, 0.0, 4.0};
     const Vec3 pull = rod.force + rod.mass * scene.gravity;
-    rod.orientation = Quat::FromTwoVectors(Vec3(0.0, -1.0, 0.0), pull);
+    rod.orientation = turn_between(Vec3(0.0, -1.0, 0.0), pull);
     rod.position = 0.5 * pull.normalized();
     scene.bodies = {rod};
     BallJoint joint;

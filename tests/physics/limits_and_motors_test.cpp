@@ -11,6 +11,7 @@
 #include "core/lab/exact_motion.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/math/angle.hpp"
+#include "core/math/turn.hpp"
 #include "core/model/joint_fields.hpp"
 #include "core/model/scene_builder.hpp"
 #include "core/sim/conserved.hpp"
@@ -312,7 +313,7 @@ Scene random_linkage(unsigned seed) {
     const Vec3 centre = at + 1.1 * half * along;
     const double mass = std::exp(uniform(-3.0, 3.0));
     const int body = builder.add_body(Box{{half, height, depth}}, mass, centre);
-    builder.body(body).orientation = Quat::FromTwoVectors(Vec3::UnitX(), along);
+    builder.body(body).orientation = turn_between(Vec3::UnitX(), along);
     builder.body(body).collides = false;
     if (i > 0 || hangs) {
       const Vec3 axis = planar ? Vec3(Vec3::UnitZ()) : vector(1.0);
@@ -536,8 +537,7 @@ TEST(Limits, ASlideReboundsAsTheCoefficientSays) {
     // On a cylindrical joint it turns about the rail at a constant rate.
     const int box =
         builder.add_body(Box{{0.2, 0.1, 0.3}}, 3.0, turns ? Vec3(0.4 * rail) : Vec3(0.3, 0.2, 0.4));
-    builder.body(box).orientation =
-        turns ? Quat::FromTwoVectors(Vec3::UnitZ(), rail) : Quat(1, 0, 0, 0);
+    builder.body(box).orientation = turns ? turn_between(Vec3::UnitZ(), rail) : Quat(1, 0, 0, 0);
     if (turns) builder.body(box).angular_velocity = 3.0 * rail;
     const int slide = turns ? builder.add_cylindrical(box, kWorld, Vec3::Zero(), rail)
                             : builder.add_prismatic(box, kWorld, Vec3::Zero(), rail);

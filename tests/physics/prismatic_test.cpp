@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/math/turn.hpp"
 #include "core/model/scene_builder.hpp"
 #include "core/sim/conserved.hpp"
 #include "core/sim/start.hpp"
@@ -125,7 +126,7 @@ TEST(PrismaticLoop, ASliderFollowsItsCrank) {
   const auto bar = [&](const Vec3& from, const Vec3& to, double mass) {
     const int body =
         builder.add_body(Box{{0.5 * (to - from).norm(), 0.03, 0.05}}, mass, 0.5 * (from + to));
-    builder.body(body).orientation = Quat::FromTwoVectors(Vec3::UnitX(), to - from);
+    builder.body(body).orientation = turn_between(Vec3::UnitX(), to - from);
     return body;
   };
   const int crank = bar(Vec3::Zero(), pin, 2.0);

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "core/lab/presets.hpp"
+#include "core/math/turn.hpp"
 #include "core/model/names.hpp"
 #include "core/model/scene_builder.hpp"
 #include "scenes/generator/exam.hpp"
@@ -30,7 +31,7 @@ int add_rod(SceneBuilder& builder, const Vec3& from, const Vec3& to, double mass
   const Vec3 along = to - from;
   const int body =
       builder.add_body(Box{{0.5 * along.norm(), 0.025, 0.025}}, mass, 0.5 * (from + to));
-  builder.body(body).orientation = Quat::FromTwoVectors(Vec3::UnitX(), along);
+  builder.body(body).orientation = turn_between(Vec3::UnitX(), along);
   return body;
 }
 

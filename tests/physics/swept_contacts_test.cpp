@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/math/turn.hpp"
 #include "core/model/names.hpp"
 #include "core/model/scene_builder.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -39,7 +40,7 @@ struct Drop {
 std::shared_ptr<const Scene> scene_of(const Drop& drop) {
   SceneBuilder builder("drop");
   const int floor = builder.add_fixed(Plane{}, Vec3::Zero());
-  const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), drop.up);
+  const Quat turn = turn_between(Vec3::UnitY(), drop.up);
   builder.body(floor).orientation = turn;
   const int body = builder.add_body(drop.shape, drop.mass, (drop.height + kHalf) * drop.up);
   builder.body(body).orientation = turn;

@@ -2,10 +2,10 @@
 // The exact motion of boxes on ball joints, each hanging from the previous one, in minimal
 // coordinates: an independent reference for the tests, which shares no code with the lab's.
 
-#include <Eigen/Dense>
 #include <vector>
 
 #include "core/model/scene.hpp"
+#include "tests/support/dense_oracle.hpp"
 
 namespace substep::test {
 
@@ -105,7 +105,7 @@ class BallChain {
       rho[i] = link.q * link.to_next;
       carried += link.omega.cross(link.omega.cross(rho[i]));
     }
-    return M.ldlt().solve(Q);
+    return solved(M, Q);
   }
 
   // Quaternions as vectors of four, q' = (0, omega) q / 2, normalised after the step.

@@ -1,13 +1,13 @@
 #pragma once
 // Random systems for solvers, and the same as dense matrices.
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <vector>
 
 #include "core/math/across.hpp"
 #include "core/solver/solver.hpp"
+#include "tests/support/dense_oracle.hpp"
 #include "tests/support/paper_settings.hpp"
 #include "tests/unit/support.hpp"
 
@@ -146,8 +146,8 @@ inline Dense dense(const RandomSystem& problem) {
     out.A(r, r) = block.softness[row.row];
     out.q[r] = block.bias[row.row];
   }
-  out.A += J * W * J.transpose();
-  out.q += J * u;
+  out.A += product(product(J, W), J.transpose());
+  out.q += product(J, u);
   return out;
 }
 

@@ -31,7 +31,7 @@ constexpr double kPeriod = 0.5;          // [s]
 constexpr double kMostSustained = 0.01;  // of the energy exchanged
 constexpr double kMostNow = 0.1;
 constexpr double kMostAtFirst = 0.25;
-constexpr double kRounding = 1e-12;   // of the energy of a body's size per frame
+constexpr double kRoundedEnergy = 1e-12;  // of the energy of a body's size per frame
 constexpr double kNoise = 1e-4;       // of the weight times the size: overlaps that contacts allow
 constexpr double kMostInside = 0.25;  // of the width of the smaller body
 constexpr double kParted = 1e-3;      // of that width: an overlap that is left
@@ -58,7 +58,7 @@ EnergyWatch::EnergyWatch(const Scene& scene, const FrameReport& start)
     const double speed = size / scene.frame;
     const double gravity = scene.effects.gravity ? scene.gravity.norm() : 0.0;
     const double force = body.mass * gravity + (scene.effects.external ? body.force.norm() : 0.0);
-    besides_ += kNoise * force * size + kRounding * body.mass * speed * speed;
+    besides_ += kNoise * force * size + kRoundedEnergy * body.mass * speed * speed;
     weight += force;
     ++moving;
   }

@@ -62,27 +62,6 @@ std::vector<Part> groups_of(const Scene& scene) {
   return groups;
 }
 
-/// L^-1 of a symmetric positive definite matrix L L^T.
-Mat3 inverse_of_half(const Mat3& of) {
-  Mat3 L = Mat3::Zero();
-  Mat3 inverse = Mat3::Zero();
-  for (int j = 0; j < 3; ++j) {
-    for (int i = j; i < 3; ++i) {
-      double left = of(i, j);
-      for (int k = 0; k < j; ++k) left -= L(i, k) * L(j, k);
-      L(i, j) = i == j ? std::sqrt(left) : left / L(j, j);
-    }
-  }
-  for (int j = 0; j < 3; ++j) {
-    for (int i = j; i < 3; ++i) {
-      double left = i == j ? 1.0 : 0.0;
-      for (int k = j; k < i; ++k) left -= L(i, k) * inverse(k, j);
-      inverse(i, j) = left / L(i, i);
-    }
-  }
-  return inverse;
-}
-
 void sort_by_share(std::vector<LinearModel::Share>& shares) {
   std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) {
     return std::abs(a.share) > std::abs(b.share);
@@ -327,18 +306,18 @@ class LinearModel::Builder {
   // With M = L L^T: q = L^-T Z y, Z an orthonormal basis of what leaves J L^-T unchanged, so that
   // rows and directions have no units. M is 1 without armatures.
   void set_basis(LinearModel& model) const {
-    const Eigen::Index bodies = size_ / 6;
-    const auto body_of = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
-    std::vector<double> moving;  // L^-1 of a body's mass [1/sqrt(kg)]
-    std::vector<Mat3> turning;   // L^-1 of its moments [1/(m sqrt(kg))]
-    for (Eigen::Index i = 0; i < bodies; ++i) {
-      moving.push_back(1.0 / std::sqrt(model.body_mass_(0, 6 * i)));
-      turning.push_back(inverse_of_half(model.body_mass_.block<3, 3>(3, 6 * i + 3)));
+    const int bodies = static_cast<int>(size_ / 6);
+    std::vector<double> linear;  // L^-1 of each body's mass [1/sqrt(kg)]
+    std::vector<Mat3> angular;   // L^-1 of its moments [1/(m sqrt(kg))]
+    for (int i = 0; i < bodies; ++i) {
+      linear.push_back(1.0 / std::sqrt(model.body_mass_(0, 6 * i)));
+      const Cholesky moments(model.body_mass_.block<3, 3>(3, 6 * i + 3));
+      angular.emplace_back(moments.solve_lower(Mat3::Identity()));
     }
     const auto half = [&](AnyVector v) {  // L^-1 v
-      for (Eigen::Index i = 0; i < bodies; ++i) {
-        v.segment<3>(6 * i) *= moving[body_of(i)];
-        v.segment<3>(6 * i + 3) = turning[body_of(i)] * Vec3(v.segment<3>(6 * i + 3));
+      for (int i = 0; i < bodies; ++i) {
+        v.segment<3>(6 * i) *= linear[index(i)];
+        v.segment<3>(6 * i + 3) = angular[index(i)] * Vec3(v.segment<3>(6 * i + 3));
       }
       return v;
     };
@@ -357,11 +336,11 @@ class LinearModel::Builder {
     for (Eigen::Index i = 0; i < n; ++i) all.col(i) = rigid[static_cast<std::size_t>(i)];
     AnyMatrix basis = orthogonal_complement(all, kDependentRow);
     model.redundant_ = static_cast<int>(n - (size_ - basis.cols()));
-    for (Eigen::Index i = 0; i < bodies; ++i) {
-      const Mat3 turn = turning[body_of(i)].transpose();
+    for (int i = 0; i < bodies; ++i) {
+      const Mat3 upper = angular[index(i)].transpose();
       for (Eigen::Index j = 0; j < basis.cols(); ++j) {
-        basis.block<3, 1>(6 * i, j) *= moving[body_of(i)];
-        basis.block<3, 1>(6 * i + 3, j) = turn * Vec3(basis.block<3, 1>(6 * i + 3, j));
+        basis.block<3, 1>(6 * i, j) *= linear[index(i)];
+        basis.block<3, 1>(6 * i + 3, j) = upper * Vec3(basis.block<3, 1>(6 * i + 3, j));
       }
     }
     model.basis_ = std::move(basis);

@@ -1,6 +1,6 @@
 #pragma once
-// Dense linear algebra of any size as plain functions. Eigen's products and decompositions of
-// dynamic matrices take seconds to compile wherever they are used; these are compiled once.
+// Dense linear algebra of any size as plain functions, which are compiled once: Eigen's products
+// and decompositions of dynamic matrices take seconds to compile in each file that uses them.
 
 #include <Eigen/Core>
 
@@ -20,7 +20,8 @@ AnyVector transposed_product(const AnyMatrix& A, const AnyVector& x);
 /// sum += factor x x^T
 void add_square(AnyMatrix& sum, double factor, const AnyVector& x);
 
-/// M = L L^T of a symmetric positive definite matrix, of which the lower half is read.
+/// The factor of a symmetric positive definite matrix M = L L^T, of which the lower half is read.
+/// Of another matrix the results are meaningless.
 class Cholesky {
  public:
   explicit Cholesky(const AnyMatrix& M);
@@ -35,7 +36,7 @@ class Cholesky {
   AnyMatrix L_;
 };
 
-/// The smallest eigenvalue of a symmetric matrix has this eigenvector, of length 1.
+/// The eigenvector of length 1 that belongs to the smallest eigenvalue of a symmetric matrix.
 AnyVector eigenvector_of_smallest(const AnyMatrix& symmetric);
 
 /// x of least norm that minimises |A x - b|. @param threshold pivots below it, relative to the

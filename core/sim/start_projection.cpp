@@ -16,8 +16,7 @@
 namespace substep {
 namespace {
 
-constexpr double kClosedError =
-    1e-13;  // error, of the joint's size or in rad, that ends an iteration
+constexpr double kClosedError = 1e-13;  // ends an iteration, of the joint's size or in rad
 // Softness of a joint's anchors if only its axes are rigid, relative to 1/m: negligible impulse
 // without loss of precision [-].
 constexpr double kFree = 1e8;

@@ -8,9 +8,8 @@ namespace substep {
 namespace {
 
 constexpr int kMostIterations = 40;
-constexpr double kInside = 0.995;  // of the way to the nearest bound
-constexpr double kRoundedMean =
-    1e-8;  // of the first mean product: below it rounding may end the fall
+constexpr double kInside = 0.995;      // of the way to the nearest bound
+constexpr double kRoundedMean = 1e-8;  // of the first mean product; below it rounding may show
 
 }  // namespace
 

@@ -14,7 +14,6 @@ VectorXd least_squares(const MatrixXd& A, const VectorXd& b) {
   return A.colPivHouseholderQr().solve(b);
 }
 MatrixXd inverse(const MatrixXd& A) { return A.partialPivLu().inverse(); }
-MatrixXd product(const MatrixXd& A, const MatrixXd& B) { return A * B; }
 
 double spectral_radius(const MatrixXd& A) {
   return Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues().cwiseAbs().maxCoeff();

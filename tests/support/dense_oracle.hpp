@@ -10,8 +10,6 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 /// x that minimises |A x - b|, A of full column rank.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
-/// A B
-Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 /// The largest absolute value of an eigenvalue.
 double spectral_radius(const Eigen::MatrixXd& A);
 /// The largest x of K v = x M v, K symmetric and M symmetric positive definite.

@@ -1,6 +1,6 @@
 #pragma once
 
-// The preset sanitizers defines it, because it does not instrument the tests' own code.
+// The preset sanitizers defines SUBSTEP_SANITIZED, because it does not instrument the tests' code.
 #if defined(SUBSTEP_SANITIZED)
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer)

@@ -39,7 +39,7 @@ double error_of_linear_solve(RandomSystem problem) {
   for (const Block& block : problem.blocks) {
     apply_impulse(block, block.impulse, problem.inverse_mass, u);
   }
-  double error = (Eigen::VectorXd(product(d.A, x)) + d.q).norm();
+  double error = (product(d.A, x) + d.q).norm();
   for (std::size_t i = 0; i < u.size(); ++i) error += (problem.u[i] - u[i]).norm();
   return error / (1.0 + x.norm());
 }

@@ -4,13 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/math/turn.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
 namespace {
 
-constexpr double kRankOfTest = 1e-9;
+constexpr double kNegligiblePivot = 1e-9;
 
 AnyMatrix random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns) {
   AnyMatrix A(rows, columns);
@@ -30,10 +32,10 @@ TEST(Dense, CholeskySolvesWithEachOfItsFactors) {
     AnyMatrix M = random_square(random, n, n + 2);
     const AnyVector b = random_matrix(random, n, 1);
     const Cholesky factor(M);
-    EXPECT_LT((substep::product(M, factor.solve(b)) - b).norm(), 1e-9);
+    EXPECT_LT((product(M, factor.solve(b)) - b).norm(), 1e-9);
     const AnyMatrix half = factor.solve_lower(M);  // L^T
     EXPECT_LT((transposed_product(half, half) - M).norm(), 1e-12 * M.norm());
-    EXPECT_LT((substep::product(half, factor.solve_upper(b)) - b).norm(), 1e-9);
+    EXPECT_LT((product(half, factor.solve_upper(b)) - b).norm(), 1e-9);
     AnyMatrix upper_lost = M;  // only the lower half is read
     upper_lost.triangularView<Eigen::StrictlyUpper>().setConstant(kUnbounded);
     EXPECT_EQ(Cholesky(upper_lost).solve(b), factor.solve(b));
@@ -45,12 +47,12 @@ TEST(Dense, TheEigenvectorOfTheSmallestMinimisesTheQuotient) {
   for (Eigen::Index n = 1; n < 10; ++n) {
     const AnyMatrix A = random_square(random, n, n) - AnyMatrix::Identity(n, n);
     const AnyVector x = eigenvector_of_smallest(A);
-    const double value = x.dot(substep::product(A, x));
+    const double value = x.dot(product(A, x));
     EXPECT_NEAR(x.norm(), 1.0, 1e-12);
-    EXPECT_LT((substep::product(A, x) - value * x).norm(), 1e-12 * (1.0 + A.norm()));
+    EXPECT_LT((product(A, x) - value * x).norm(), 1e-12 * (1.0 + A.norm()));
     for (int trial = 0; trial < 100; ++trial) {
       const AnyVector other = AnyVector(random_matrix(random, n, 1)).normalized();
-      EXPECT_GE(other.dot(substep::product(A, other)), value - 1e-12);
+      EXPECT_GE(other.dot(product(A, other)), value - 1e-12);
     }
   }
 }
@@ -61,10 +63,10 @@ TEST(Dense, TheLeastNormSolutionHasNoPartInTheNullSpace) {
   for (Eigen::Index rank = 1; rank < 8; ++rank) {
     const Eigen::Index n = rank + rank % 3;
     const AnyMatrix S = random_square(random, n, rank);
-    const AnyVector b = substep::product(S, AnyVector(random_matrix(random, n, 1)));
-    const AnyVector x = least_norm_solution(S, b, kRankOfTest);
-    EXPECT_LT((substep::product(S, x) - b).norm(), 1e-9 * (1.0 + b.norm()));
-    const AnyMatrix null = orthogonal_complement(S, kRankOfTest);
+    const AnyVector b = product(S, AnyVector(random_matrix(random, n, 1)));
+    const AnyVector x = least_norm_solution(S, b, kNegligiblePivot);
+    EXPECT_LT((product(S, x) - b).norm(), 1e-9 * (1.0 + b.norm()));
+    const AnyMatrix null = orthogonal_complement(S, kNegligiblePivot);
     EXPECT_EQ(null.cols(), n - rank);
     EXPECT_LT(transposed_product(null, x).norm(), 1e-9 * (1.0 + x.norm()));
   }
@@ -75,7 +77,7 @@ TEST(Dense, TheComplementIsOrthonormalAndOrthogonalToTheColumns) {
   for (Eigen::Index columns = 0; columns < 6; ++columns) {
     AnyMatrix A = random_matrix(random, 7, columns);
     if (columns > 2) A.col(1) = 2.0 * A.col(0);
-    const AnyMatrix Z = orthogonal_complement(A, kRankOfTest);
+    const AnyMatrix Z = orthogonal_complement(A, kNegligiblePivot);
     EXPECT_EQ(Z.cols(), 7 - columns + (columns > 2 ? 1 : 0));
     EXPECT_LT((transposed_product(Z, Z) - AnyMatrix::Identity(Z.cols(), Z.cols())).norm(), 1e-12);
     if (columns > 0) EXPECT_LT(transposed_product(Z, A).norm(), 1e-12 * (1.0 + A.norm()));
@@ -90,13 +92,13 @@ TEST(Dense, ProductsAndSquares) {
   AnyMatrix square = AnyMatrix::Identity(3, 3);
   add_square(square, 2.5, x);
   for (Eigen::Index i = 0; i < 4; ++i) {
-    EXPECT_NEAR(substep::product(A, x)[i], A.row(i).dot(x), 1e-14);
+    EXPECT_NEAR(product(A, x)[i], A.row(i).dot(x), 1e-14);
     for (Eigen::Index j = 0; j < 5; ++j) {
-      EXPECT_NEAR(substep::product(A, B)(i, j), A.row(i).dot(B.col(j)), 1e-14);
+      EXPECT_NEAR(product(A, B)(i, j), A.row(i).dot(B.col(j)), 1e-14);
     }
   }
-  EXPECT_LT((transposed_product(A, A) - substep::product(A.transpose(), A)).norm(), 1e-14);
-  EXPECT_LT((transposed_product(B, x) - substep::product(B.transpose(), x)).norm(), 1e-14);
+  EXPECT_LT((transposed_product(A, A) - product(AnyMatrix(A.transpose()), A)).norm(), 1e-14);
+  EXPECT_LT((transposed_product(B, x) - product(AnyMatrix(B.transpose()), x)).norm(), 1e-14);
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index j = 0; j < 3; ++j) {
       EXPECT_NEAR(square(i, j), (i == j ? 1.0 : 0.0) + 2.5 * x[i] * x[j], 1e-14);
@@ -104,7 +106,7 @@ TEST(Dense, ProductsAndSquares) {
   }
 }
 
-// The shortest turn: about an axis across both directions. Near opposite ones it loses digits.
+// In space, of any length, nearly equal and nearly opposite: about an axis across both.
 TEST(Turn, BetweenTwoDirectionsIsTheShortest) {
   Random random(8);
   for (int trial = 0; trial < 300; ++trial) {

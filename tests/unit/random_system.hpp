@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/math/across.hpp"
+#include "core/math/dense.hpp"
 #include "core/solver/solver.hpp"
 #include "tests/support/dense_oracle.hpp"
 #include "tests/support/paper_settings.hpp"
@@ -146,7 +147,7 @@ inline Dense dense(const RandomSystem& problem) {
     out.A(r, r) = block.softness[row.row];
     out.q[r] = block.bias[row.row];
   }
-  out.A += product(product(J, W), J.transpose());
+  out.A += product(product(J, W), AnyMatrix(J.transpose()));
   out.q += product(J, u);
   return out;
 }

@@ -39,7 +39,7 @@ std::vector<Eigen::VectorXd> enumerate(const RandomSystem& problem) {
       if (row.row > 0) M(i, i - row.row) = -state * problem.blocks[row.block].mu;
     }
     const Eigen::VectorXd x = solved(M, rhs);
-    const Eigen::VectorXd w = Eigen::VectorXd(product(d.A, x)) + d.q;
+    const Eigen::VectorXd w = product(d.A, x) + d.q;
     bool valid = x.allFinite();
     constexpr double kSlack = 1e-9;
     for (const Eigen::Index i : boxed) {

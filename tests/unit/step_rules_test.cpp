@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/lab/step_rules.hpp"
+#include "core/math/dense.hpp"
 #include "tests/support/dense_oracle.hpp"
 #include "tests/support/sanitized.hpp"
 
@@ -30,8 +31,8 @@ Matrix step_of(const Matrix& M, const Matrix& K_e, const Matrix& K_i, const Matr
   // (M + h D_i + h^2 K_i) v+ = (M - h D_e) v - h (K_e + K_i) q
   const Matrix left = test::inverse(M + h * D_i + h * h * K_i);
   Matrix step(2 * n, 2 * n);
-  step.bottomLeftCorner(n, n) = -h * test::product(left, K_e + K_i);
-  step.bottomRightCorner(n, n) = test::product(left, M - h * D_e);
+  step.bottomLeftCorner(n, n) = -h * product(left, Matrix(K_e + K_i));
+  step.bottomRightCorner(n, n) = product(left, Matrix(M - h * D_e));
   step.topLeftCorner(n, n) = E + h * step.bottomLeftCorner(n, n);
   step.topRightCorner(n, n) = h * step.bottomRightCorner(n, n);
   return step;
@@ -78,9 +79,9 @@ TEST(StepRules, OfAHeldDriveAreExact) {
     step(1, 2) = h / of.inertia;
     step(0, 1) = h;
     step(0, 2) = h * h / of.inertia;
-    for (int k = 0; k < of.steps; ++k) all = test::product(step, all);
-    const double radius =
-        test::spectral_radius(test::product(all.topLeftCorner(3, 2), Matrix::Identity(2, 3)));
+    for (int k = 0; k < of.steps; ++k) all = product(step, all);
+    const double radius = test::spectral_radius(
+        product(Matrix(all.topLeftCorner(3, 2)), Matrix(Matrix::Identity(2, 3))));
     EXPECT_EQ(radius < 1.0, is_stable(of, h))
         << radius << " " << h / effort << " " << h / delay << " " << of.steps;
     by_delay += delay < effort;
@@ -90,7 +91,7 @@ TEST(StepRules, OfAHeldDriveAreExact) {
 
 Matrix random_positive(RandomBits& random, Eigen::Index n, Eigen::Index rank) {
   const Matrix A = Matrix::NullaryExpr(n, rank, [&] { return between(random, -1.0, 1.0); });
-  return test::product(A, A.transpose());
+  return product(A, Matrix(A.transpose()));
 }
 
 // Several joints, all four kinds of terms.
@@ -123,8 +124,8 @@ TEST(StepRules, OfSeveralCoordinatesAreExact) {
     }
     const Matrix P =
         4.0 * M + 2.0 * limit.step * (D_i - D_e) - limit.step * limit.step * (K_e - K_i);
-    EXPECT_LT(test::product(P, limit.mode).norm(), 1e-6 * P.norm() * limit.mode.norm());
-    EXPECT_NEAR(limit.mode.dot(test::product(M, limit.mode).col(0)), 1.0, 1e-9);
+    EXPECT_LT(product(P, limit.mode).norm(), 1e-6 * P.norm() * limit.mode.norm());
+    EXPECT_NEAR(limit.mode.dot(product(M, limit.mode)), 1.0, 1e-9);
   }
 }
 

@@ -62,6 +62,7 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
   ldlt_.reserve(bodies, blocks);
   friction_bound_.reserve(blocks);
   centre_.reserve(blocks);
+  unmet_.reserve(blocks);
   gauss_seidel_.reserve(bodies, blocks);
   interior_point_.reserve(blocks);
   bounds_.reserve(blocks * kMaxRows);
@@ -167,9 +168,31 @@ void Bpp::centre(const System& system) {
   ldlt_.read(system.blocks);
 }
 
+void Bpp::solve_redundant(const System& system) {
+  ldlt_.refine(system);
+  unmet_.resize(system.blocks.size());
+  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+    const Block& block = system.blocks[i];
+    double w[kMaxRows];
+    row_speeds(block, system.u, w);
+    for (int row = 0; row < block.rows; ++row) {
+      unmet_[i].row[row] = w[row] + block.softness[row] * block.impulse[row] + block.bias[row];
+    }
+  }
+}
+
+void Bpp::keep_redundant(const System& system) {
+  redundant_ = {};
+  if (!ldlt_.held()) return;
+  found_.resize(system.u.size());
+  copy(system.u, found_);
+  redundant_ = system;
+  redundant_.u = found_;
+}
+
 SolveReport Bpp::find_velocities(const System& system, const Settings& settings) {
   if (settings.friction_cone == FrictionCone::kCone) align_tangents(system);
-  if (refinements_of(system, settings) > 0) centre_.assign(system.blocks.size(), Centre{});
+  if (refinements_of(system, settings) > 0) centre_.assign(system.blocks.size(), RowValues{});
   return find_again(system, settings);
 }
 
@@ -179,6 +202,7 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
   }
   SolveReport report;
   has_impulses_ = false;
+  redundant_ = {};
   any_bounded_ = false;
   for (Block& block : system.blocks) {
     if (!block.is_bounded()) continue;
@@ -198,7 +222,8 @@ SolveReport Bpp::find_again(const System& system, const Settings& settings) {
     find_active_set(system, settings, kPasses, report);
   }
   if (report.status == SolveStatus::kOverLimits) return report;
-  if (!any_bounded_ && ldlt_.held()) ldlt_.refine(system);
+  if (!any_bounded_ && ldlt_.held()) solve_redundant(system);
+  keep_redundant(system);
   report.factorisations = ldlt_.factorisations();
   report.flops += ldlt_.flops();
   return report;
@@ -212,7 +237,13 @@ SolveReport Bpp::find_velocities_again(const System& system, const Settings& set
   const std::int64_t flops = ldlt_.flops();
   const int factorisations = ldlt_.factorisations();
   if (!any_bounded_ && ldlt_.held()) {
-    ldlt_.refine(system);
+    // A part of what redundant rows demand no impulse can meet. A bias that is added to would
+    // collect these parts, and the rows pull at each other.
+    for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+      Block& block = system.blocks[i];
+      for (int row = 0; row < block.rows; ++row) block.bias[row] -= unmet_[i].row[row];
+    }
+    solve_redundant(system);
   } else {
     ldlt_.read(system.blocks);
     if (any_bounded_ && keeps_bounds) {
@@ -223,6 +254,7 @@ SolveReport Bpp::find_velocities_again(const System& system, const Settings& set
       find_active_set(system, settings, 1, report);
     }
   }
+  keep_redundant(system);
   report.factorisations = ldlt_.factorisations() - factorisations;
   report.flops += ldlt_.flops() - flops;
   return report;
@@ -256,7 +288,12 @@ std::int64_t Bpp::find_impulses(std::span<Block> blocks) {
   if (has_impulses_) return 0;
   const std::int64_t before = ldlt_.flops();
   ldlt_.find_impulses(blocks);
-  return ldlt_.flops() - before;
+  std::int64_t flops = ldlt_.flops() - before;
+  if (!redundant_.blocks.empty()) {
+    redundant_.blocks = blocks;
+    flops += least_.find(redundant_, ldlt_.u_star());
+  }
+  return flops;
 }
 
 bool Bpp::over_limits(const System& system, SolveReport& report) const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/solver/interior_point.hpp"
+#include "core/solver/least_impulses.hpp"
 #include "core/solver/pgs.hpp"
 #include "core/solver/saddle_ldlt.hpp"
 #include "core/solver/solver.hpp"
@@ -31,6 +32,10 @@ class Bpp final : public Solver {
   SolveReport find_velocities_again(const System& system, const Settings& settings,
                                     bool keeps_bounds) override;
   std::int64_t find_impulses(std::span<Block> blocks) override;
+  /// After find_impulses(), if rows may be redundant: the velocities under these impulses. They
+  /// differ from u+ where rows are redundant only to the order of the sub-step, as those of Newton
+  /// at the poses between. Else empty.
+  [[nodiscard]] std::span<const Vec6> velocities_of_impulses() const { return redundant_.u; }
 
  private:
   /// The same for rows whose tangents are aligned and whose bias contains the centre.
@@ -44,6 +49,9 @@ class Bpp final : public Solver {
   bool find_within_bounds(const System& system, const Settings& settings, int& single_pivots,
                           bool& approached, SolveReport& report);
   void centre(const System& system);
+  void solve_redundant(const System& system);
+  /// For find_impulses().
+  void keep_redundant(const System& system);
   /// A row's new set.
   struct Move {
     std::size_t block = 0;
@@ -80,16 +88,20 @@ class Bpp final : public Solver {
   void go_on_with_gauss_seidel(const System& system, const Settings& settings, SolveReport& report);
 
   SaddleLdlt ldlt_;
+  LeastImpulses least_;
+  System redundant_;  // the system last solved, if it may have redundant rows; else no blocks
+  std::vector<Vec6> found_;  // its u+
   Pgs gauss_seidel_;
   InteriorPoint interior_point_;
   std::vector<Bounds> bounds_;  // per block, kMaxRows each
   bool any_bounded_ = false;
   bool has_impulses_ = false;           // all impulses are known, from Gauss-Seidel or refinement
   std::vector<double> friction_bound_;  // per block [N s]
-  struct Centre {
+  struct RowValues {
     double row[kMaxRows];
   };
-  std::vector<Centre> centre_;  // per block: centre of the regularisation [N s or N m s]
+  std::vector<RowValues> centre_;  // per block: centre of the regularisation [N s or N m s]
+  std::vector<RowValues> unmet_;   // per block: w of redundant rows that no impulse makes 0 [m/s]
 };
 
 }  // namespace substep

@@ -274,6 +274,7 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
       if (step.work_needed > 0.0) step.work_needed += static_cast<double>(report.flops);
       return step;
     }
+    if (!linear_.velocities_of_impulses().empty()) copy(linear_.velocities_of_impulses(), u_);
     change = take(system);
     ++report.iterations;
     report.status = step.status;

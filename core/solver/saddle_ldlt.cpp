@@ -203,14 +203,10 @@ void SaddleLdlt::solve(const System& system) {
 }
 
 void SaddleLdlt::find_impulses(std::span<Block> blocks) {
-  if (refined_) {
-    find_least_impulses(blocks);
-  } else {
-    find_unique_impulses(blocks);
-  }
+  if (!refined_) find_skipped_impulses(blocks);
 }
 
-void SaddleLdlt::find_unique_impulses(std::span<Block> blocks) {
+void SaddleLdlt::find_skipped_impulses(std::span<Block> blocks) {
   for (const Node& node : nodes_) {
     if (node.kind != NodeKind::kArticulated) continue;
     node.joint->find_impulse(node.parent_velocity,

@@ -34,7 +34,16 @@ namespace substep {
 /// When rows become active or free, only their nodes and the ancestors of these are refactored.
 class SaddleLdlt {
  public:
-  SaddleLdlt() = default;
+  /// What refine() makes of redundant rows, which have no unique impulses.
+  enum class Redundant : std::uint8_t {
+    kFast,   // articulated nodes stay exact, which is enough for the velocities
+    kShares  // no node is articulated, and all rows share: the impulses are of least norm too
+  };
+  /// Of the mobility: the softness in refine() where all rows share. Corrections converge more
+  /// slowly than with less; singular poses do not matter, because the velocities are known.
+  static constexpr double kShared = 1e-6;
+
+  explicit SaddleLdlt(Redundant redundant = Redundant::kFast) : redundant_(redundant) {}
   SaddleLdlt(const SaddleLdlt&) = delete;
   SaddleLdlt& operator=(const SaddleLdlt&) = delete;
 
@@ -52,14 +61,14 @@ class SaddleLdlt {
   /// If that would exceed the work in System::limits, only flops(), a lower bound, is valid.
   void solve(const System& system);
   /// Computes the impulses that solve() skips because no velocity depends on them: those of
-  /// articulated or folded joints; after refine() all of them, those of redundant rows with the
-  /// least norm.
+  /// articulated or folded joints. After refine() all are known.
   void find_impulses(std::span<Block> blocks);
 
   /// True if a pivot was clamped since `begin`: rows are redundant, and the solution is that of
   /// softer ones.
   [[nodiscard]] bool held() const { return held_; }
-  /// Removes the softness by iterative refinement; all rows are free. May be called again with
+  /// Softens the rows outside articulated nodes, so that redundant ones share their impulses, and
+  /// removes the softness by iterative refinement; all rows are free. May be called again with
   /// another bias.
   void refine(const System& system);
 
@@ -215,19 +224,16 @@ class SaddleLdlt {
   void backward_rows(const Node& node, const Factor& f, auto rows, auto n, std::span<Block> blocks,
                      double* change);
 
-  /// Solves with rows outside articulated nodes softened by this share of their mobility.
-  void solve_softened(double share, const System& system);
+  /// Softens rows outside articulated nodes by this share of their mobility.
+  void soften_all(double share);
   /// Adds corrections to the solution of the softened rows.
-  /// @param consistent the rows can be met: corrections may be large
-  void correct(const System& system, bool consistent);
-  /// Impulses of articulated and folded joints, from the last solve.
-  void find_unique_impulses(std::span<Block> blocks);
-  /// All impulses after refine(), those of redundant rows with the least norm.
-  void find_least_impulses(std::span<Block> blocks);
+  void correct(const System& system);
+  void find_skipped_impulses(std::span<Block> blocks);
   /// Sets u* to the velocity under the current impulses, and sets up the system for their
   /// correction. @return its largest |w| at zero correction [m/s, rad/s]
   double start_correction(const System& system);
 
+  Redundant redundant_;
   EliminationOrder order_;
   std::size_t bodies_ = 0;
   std::vector<Key> keys_;
@@ -244,7 +250,7 @@ class SaddleLdlt {
   std::vector<ArticulatedJoint> joints_;  // nodes point to them
   bool any_folded_ = false;
   bool held_ = false;      // a pivot
-  bool refined_ = false;   // refine() found the velocities
+  bool refined_ = false;   // by refine(), since `begin`
   double softened_ = 0.0;  // share of its mobility by which every row outside articulated nodes is
   std::vector<double> values_;
   std::int64_t flops_ = 0;
@@ -261,17 +267,13 @@ class SaddleLdlt {
 
   // Of refine():
   struct RowValues {
-    double given[kMaxRows];    // bias of the system
-    double bias[kMaxRows];     // of the speeds to reach
+    double bias[kMaxRows];     // of the system
     double impulse[kMaxRows];  // before the current correction
     double earlier[kMaxRows];  // before the previous correction
   };
   std::vector<RowValues> found_;  // per block
-  System of_refine_;
-  std::vector<Vec6> u_begun_;    // u* of the system
-  std::vector<Vec6> u_found_;    // u+
-  std::vector<Vec6> u_solved_;   // u+ of find_least_impulses()
-  std::vector<Vec6> u_earlier_;  // u+ before the last correction
+  std::vector<Vec6> u_begun_;     // u* of the system
+  std::vector<Vec6> u_earlier_;   // u+ before the last correction
 };
 
 }  // namespace substep

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/solver/saddle_ldlt.hpp"
 
@@ -75,68 +76,29 @@ double SaddleLdlt::start_correction(const System& system) {
 // whole system, slowly only close to a singular pose. With contradictory rows it does not fall, or
 // the solution would change strongly; then the softened solution is kept.
 void SaddleLdlt::refine(const System& system) {
-  const std::span<Block> blocks = system.blocks;
-  found_.resize(blocks.size());
+  found_.resize(system.blocks.size());
   u_begun_.resize(u_star_.size());
-  u_found_.resize(u_star_.size());
   u_earlier_.resize(u_star_.size());
-  if (refined_) {  // another bias for the same system
+  if (std::exchange(refined_, true)) {  // another bias for the same system
     copy(system.u, u_star_);
-    read(blocks);
+    read(system.blocks);
   }
-  copy(u_star_, u_begun_);
-  solve_softened(kSoftened, system);
-  correct(system, false);
-  copy(system.u, u_found_);
-  refined_ = true;
-  of_refine_ = system;
-}
-
-void SaddleLdlt::solve_softened(double share, const System& system) {
-  if (softened_ != share) {
-    softened_ = share;
-    factored_ = false;
-    for (Node& node : nodes_) node.dirty = node.kind != NodeKind::kArticulated;
-  }
+  soften_all(redundant_ == Redundant::kFast ? kSoftened : kShared);
   solve(system);
-}
-
-// Redundant rows have no unique impulses. From zero impulses, the proximal-point iteration of
-// refine() converges to those of least norm among the solutions (Rockafellar 1976), with e as
-// weights: they are a smooth function of the pose. Those that found the velocities also contain
-// what redundant rows, which disagree, if only by rounding, pull at each other: the more, the
-// smaller e. The rows are therefore solved again for the speeds that were found, on which they
-// agree, with an e so large that rounding does not matter.
-void SaddleLdlt::find_least_impulses(std::span<Block> blocks) {
-  constexpr double kShare = 1e-6;
-  u_solved_.resize(u_found_.size());
-  System system = of_refine_;
-  system.blocks = blocks;
-  system.u = u_solved_;
-  system.limits = {};
+  correct(system);
   copy(u_begun_, u_star_);
-  copy(u_begun_, u_solved_);  // solve() sets only those of bodies with rows
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    Block& block = blocks[k];
-    std::copy_n(block.bias, kMaxRows, found_[k].given);
-    double w[kMaxRows];
-    row_speeds(block, u_found_, w);
-    for (int row = 0; row < block.rows; ++row) {
-      block.bias[row] = -(w[row] + block.softness[row] * block.impulse[row]);
-    }
-    flops_ += residual_flops(block);
-  }
-  read(blocks);
-  solve_softened(kShare, system);
-  correct(system, true);
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    std::copy_n(found_[k].given, kMaxRows, blocks[k].bias);
-  }
 }
 
-void SaddleLdlt::correct(const System& system, bool consistent) {
+void SaddleLdlt::soften_all(double share) {
+  if (std::exchange(softened_, share) == share) return;
+  factored_ = false;
+  for (Node& node : nodes_) node.dirty = node.kind != NodeKind::kArticulated;
+}
+
+void SaddleLdlt::correct(const System& system) {
   const std::span<Block> blocks = system.blocks;
-  find_unique_impulses(blocks);
+  const bool consistent = redundant_ == Redundant::kShares;  // rows that can be met
+  find_skipped_impulses(blocks);
   copy(u_star_, u_begun_);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::copy_n(blocks[k].bias, kMaxRows, found_[k].bias);
@@ -157,7 +119,7 @@ void SaddleLdlt::correct(const System& system, bool consistent) {
       copy(system.u, u_earlier_);
       read(blocks);
       solve(system);
-      find_unique_impulses(blocks);
+      find_skipped_impulses(blocks);
     }
     for (std::size_t k = 0; k < blocks.size(); ++k) {
       Block& block = blocks[k];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@ inline std::shared_ptr<const Scene> shared(const Scene& scene) {
 inline Simulator simulator_of(std::shared_ptr<const Scene> scene, const Settings& settings) {
   Simulator simulator(std::move(scene));
   simulator.set_settings(settings);
+  if (simulator.state().x.empty()) throw std::invalid_argument("a scene that cannot be simulated");
   return simulator;
 }
 inline Simulator simulator_of(const Scene& scene, const Settings& settings) {

@@ -278,6 +278,9 @@ void add_doctor(CLI::App& app, int& exit_code) {
   command->add_option("--badge", options->badge, "write a picture for a README (SVG) to this file")
       ->check(named());
   options->budget.add_to(*command);
+  for (const char* of_runs : {"--seconds", "--work-budget", "--memory-budget"}) {
+    command->get_option(of_runs)->excludes("--no-runs");
+  }
   command->footer(
       "The largest step is that of the linearised model with constraint forces frozen: exact for "
       "a\n"

@@ -10,6 +10,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
+#include "app/cli/scene_source.hpp"
 #include "app/cli/within.hpp"
 #include "core/import/import_model.hpp"
 #include "core/io/json_text.hpp"
@@ -57,7 +58,8 @@ int import(const ImportCommandOptions& options) {
     complain("%s: %s", name.c_str(), std::strerror(errno));
     return kBadInput;
   }
-  const ModelFiles files = is_input ? ModelFiles() : files_beside(path);
+  if (!is_input) protect_input(options.model);
+  const ModelFiles files = is_input ? ModelFiles() : model_files(path);
   const ImportResult result = import_model(text, name, files, options.how);
   for (const ImportNote& note : result.report.errors.notes) {
     complain("%s", to_string(note).c_str());

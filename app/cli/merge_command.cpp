@@ -60,7 +60,7 @@ bool read_part(const std::string& path, std::string& text) {
     if (reading == Reading::kFailed) break;
     if (reading == Reading::kEnd) return true;
     ++number;
-    if (reading == Reading::kCut && !is_whole_line(line)) {
+    if (reading == Reading::kCut && is_cut_line(line)) {
       complain("%s:%zu: the last line is cut short; it is left out", path.c_str(), number);
       return true;
     }
@@ -81,8 +81,9 @@ bool read_part(const std::string& path, std::string& text) {
 bool has_parts(const fs::path& folder, const std::vector<fs::path>& parts) {
   std::error_code error;
   if (!parts.empty() || fs::exists(folder / "results.jsonl", error)) return true;
-  const char* what =
-      fs::is_directory(folder, error) ? "there are no results to merge" : "there is no such folder";
+  const char* what = fs::is_directory(folder, error) ? "there are no results to merge"
+                     : fs::exists(folder, error)     ? "it is not a folder"
+                                                     : "there is no such folder";
   complain("%s: %s", folder.string().c_str(), what);
   return false;
 }
@@ -166,6 +167,7 @@ int merge(const MergeOptions& options) {
   for (const fs::path& source : sources) {
     std::string text;
     if (!read_part(source.string(), text)) return kBadInput;
+    if (source != path) protect_input(source.string());
     if (!results.read(source.string(), text)) return kBadInput;
   }
   if (results.order().empty()) {
@@ -213,6 +215,7 @@ void add_merge(CLI::App& app, int& exit_code) {
     inputs.push_back(options->scene);
     const fs::path folder = options->folder;
     keep_apart({{"folder", (folder / "report.html").string()}}, inputs);
+    keep_files_apart(folder, "results.jsonl");
     if (!options->scene.empty()) {
       keep_apart({{"folder", (folder / "results.jsonl").string()}}, {options->scene});
     }

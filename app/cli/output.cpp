@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -42,6 +43,10 @@ bool same(const struct stat& a, const struct stat& b) {
 std::mutex g_commit;
 std::mutex g_outputs;       // of the list, and of creating temporary files
 Output* g_first = nullptr;  // open outputs
+
+// The inputs, by device and number: whether an output may replace them in place.
+std::mutex g_inputs;
+std::map<std::pair<dev_t, ino_t>, bool> g_by_request;
 
 /// The target of a path with all links resolved, even if the file does not exist.
 fs::path target_of(const std::string& path, std::error_code& error) {
@@ -86,6 +91,22 @@ bool same_output(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+void protect_input(const std::string& path, bool by_request) {
+  const auto found = about(path);
+  if (!found || !S_ISREG(found->st_mode)) return;
+  const std::lock_guard lock(g_inputs);
+  bool& before = g_by_request.try_emplace({found->st_dev, found->st_ino}, true).first->second;
+  before = before && by_request;
+}
+
+bool is_protected(const std::string& path, bool in_place) {
+  const auto found = about(path);
+  if (!found) return false;
+  const std::lock_guard lock(g_inputs);
+  const auto known = g_by_request.find({found->st_dev, found->st_ino});
+  return known != g_by_request.end() && !(in_place && known->second);
+}
+
 Output::~Output() { discard(); }
 
 bool Output::fail(int error) const {
@@ -93,9 +114,13 @@ bool Output::fail(int error) const {
   return false;
 }
 
-bool Output::open(const std::string& path) {
+bool Output::open(const std::string& path, bool in_place) {
   path_ = path;
   if (path.empty()) return true;
+  if (!is_standard_output(path) && is_protected(path, in_place)) {
+    complain("%s: it is an input, and would be overwritten", path.c_str());
+    return false;
+  }
   const auto found = about(path);
   const bool standard = is_standard_output(path);
   if (!standard && found && S_ISDIR(found->st_mode)) return fail(EISDIR);
@@ -239,9 +264,9 @@ void end_outputs(bool keep) {
   ::funlockfile(stdout);
 }
 
-bool write_file(const std::string& path, const std::string& text) {
+bool write_file(const std::string& path, const std::string& text, bool in_place) {
   Output file;
-  if (!file.open(path)) return false;
+  if (!file.open(path, in_place)) return false;
   file.write(text);
   return file.close();
 }

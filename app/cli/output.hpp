@@ -9,6 +9,13 @@
 
 namespace substep::cli {
 
+/// Declares a file that the program has read: no Output replaces it. Not for pipes and devices.
+/// @param by_request an Output that is opened in place may
+void protect_input(const std::string& path, bool by_request = false);
+
+/// Whether a path names a file that no Output may replace, in place or not.
+bool is_protected(const std::string& path, bool in_place);
+
 /// A result file, "-" for standard output; an empty path opens nothing. A file is written under a
 /// temporary name and renamed when it is closed successfully; until then, and on any error, the
 /// existing file is unchanged. Devices and pipes are written directly. The temporary name has the
@@ -20,8 +27,9 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
+  /// @param in_place it may replace an input, see protect_input()
   /// @return false, with a message on stderr, if the file cannot be written
-  bool open(const std::string& path);
+  bool open(const std::string& path, bool in_place = false);
   void write(const std::string& text);
   /// Writes the end of the content: if end_outputs() ends the file now, it is complete.
   void write_last(const std::string& text);
@@ -64,7 +72,7 @@ std::unique_lock<std::mutex> commit();
 void end_outputs(bool keep);
 
 /// Writes a whole file by means of Output.
-bool write_file(const std::string& path, const std::string& text);
+bool write_file(const std::string& path, const std::string& text, bool in_place = false);
 
 /// Opens standard streams that the caller has closed, so that no other file gets their descriptors;
 /// and turns SIGPIPE and SIGXFSZ into write errors.

@@ -261,7 +261,7 @@ int recommend(const RecommendOptions& options) {
                                             {question.whole, answer->failed.size()});
     // The output may be the file that the scene was read from.
     const Scene with = with_recommended(*scene, *recommended);
-    if (!write_file(options.out, write_scene(with))) return kBadInput;
+    if (!write_file(options.out, write_scene(with), true)) return kBadInput;
   }
   if (answer->found && !promised && !options.out.empty()) {
     say(words, "%s is not written: --error %.3g stores this one.\n",

@@ -63,6 +63,13 @@ bool ResultsFile::take_lock() {
   return true;
 }
 
+void keep_files_apart(const std::filesystem::path& folder, const std::string& results) {
+  keep_apart({{"results", (folder / results).string()},
+              {"scene.json", (folder / "scene.json").string()},
+              {"report.html", (folder / "report.html").string()}},
+             {});
+}
+
 bool ResultsFile::load(std::string& text) {
   char part[65536];
   for (ssize_t n = 0;
@@ -87,7 +94,7 @@ bool ResultsFile::read() {
   // A killed program leaves a truncated line without a line feed. An editor may leave a whole one.
   const std::size_t whole = text.rfind('\n') + 1;  // npos + 1 is 0
   const std::string end = text.substr(whole);
-  const bool ends_whole = is_whole_line(end);
+  const bool ends_whole = is_whole_line(end) || (!end.empty() && whole > 0 && !is_cut_line(end));
   const std::string header = results_header();
   if (whole == 0 && !ends_whole && text != header.substr(0, text.size())) {
     tell(path_, "not a results file of substep; it is unchanged");
@@ -119,6 +126,10 @@ bool ResultsFile::read() {
 
 bool ResultsFile::open(const std::string& path, const ResultsScene& scene) {
   path_ = path;
+  if (is_protected(path_, true)) {
+    tell(path_, "it is an input, and would be changed");
+    return false;
+  }
   results_.bind(scene);
   return take_lock() && read();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -8,6 +9,10 @@
 #include "core/io/json.hpp"
 
 namespace substep::cli {
+
+/// Throws a CLI::ValidationError if files of a sweep's folder are the same file, by links.
+/// @param results name of the file of results
+void keep_files_apart(const std::filesystem::path& folder, const std::string& results);
 
 /// Maximum size of a results file [bytes]: some 250,000 results.
 inline constexpr std::size_t kMostResults = 512U << 20U;

@@ -89,4 +89,13 @@ bool is_whole_line(const std::string& end) {
   return json && json->is_object();
 }
 
+bool is_cut_line(const std::string& end) {
+  if (!end.starts_with('{')) return false;
+  try {
+    return Json::parse(end).is_discarded();  // false: it is whole
+  } catch (const Json::parse_error& error) {
+    return error.byte > end.size();
+  }
+}
+
 }  // namespace substep::cli

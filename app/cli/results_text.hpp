@@ -56,4 +56,7 @@ class StoredResults {
 /// it, or a copy of it, was not cut short.
 bool is_whole_line(const std::string& end);
 
+/// Whether it is the beginning of such a line, as a killed program leaves it.
+bool is_cut_line(const std::string& end);
+
 }  // namespace substep::cli

@@ -7,11 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "app/cli/bounded_text.hpp"
 #include "app/cli/message.hpp"
+#include "app/cli/output.hpp"
 #include "core/import/import_model.hpp"
-#include "core/import/model_files.hpp"
 #include "core/io/json_text.hpp"
 #include "core/io/object_reader.hpp"
 #include "core/io/scene_reader.hpp"
@@ -60,6 +61,14 @@ std::shared_ptr<const Scene> import_scene(const std::string& text, const std::st
 
 }  // namespace
 
+ModelFiles model_files(const std::filesystem::path& model) {
+  return [read = files_beside(model), folder = model.parent_path()](const std::string& name) {
+    std::optional<std::string> text = read(name);
+    if (text) protect_input((folder / name).string());
+    return text;
+  };
+}
+
 std::shared_ptr<const Scene> load_scene(const std::string& name_or_path) {
   SceneResult result;
   std::string place = name_or_path;
@@ -83,12 +92,17 @@ std::shared_ptr<const Scene> load_scene(const std::string& name_or_path) {
       return nullptr;
     }
     std::ifstream file(place, std::ios::binary);
-    std::string text;  // read_scene_file() reports a file that cannot be read
-    if (file && read_bounded(file, kMaxTextSize, text) == Reading::kWhole && is_model(text)) {
+    std::string text;  // read once: it may be a pipe; read_scene() reports a text that is too long
+    if (!file || read_bounded(file, kMaxTextSize, text) == Reading::kFailed) {
+      result = read_scene_file(place);  // reports why
+    } else if (is_model(text)) {
+      protect_input(place);
       return import_scene(text, std::filesystem::path(place).filename().string(),
-                          files_beside(place));
+                          model_files(place));
+    } else {
+      protect_input(place, true);
+      result = read_scene(text);
     }
-    result = read_scene_file(place);
   }
   for (const Problem& problem : result.problems) {
     complain("%s: %s", place.c_str(), to_string(problem).c_str());

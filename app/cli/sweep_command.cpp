@@ -124,6 +124,10 @@ bool keep_scene(const fs::path& folder, const Scene& scene) {
   const std::string path = (folder / "scene.json").string();
   std::error_code error;
   if (!fs::exists(path, error)) return write_file(path, write_scene(scene));
+  if (!fs::is_regular_file(path, error)) {
+    complain("%s: not a regular file", path.c_str());
+    return false;
+  }
   const SceneResult kept = read_scene_file(path);
   for (const Problem& problem : kept.problems) {
     complain("%s: %s", path.c_str(), to_string(problem).c_str());
@@ -156,15 +160,16 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   const fs::path folder =
       options.out.empty() ? fs::path(scene->name + ".sweep") : fs::path(options.out);
   keep_apart({{"--out", (folder / "report.html").string()}}, {scene_path(options.scene)});
+  const std::string name = shard.count == 1 ? "results.jsonl"
+                                            : "results." + std::to_string(shard.index) + "-of-" +
+                                                  std::to_string(shard.count) + ".jsonl";
+  keep_files_apart(folder, name);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
     complain("%s: %s", folder.string().c_str(), error.message().c_str());
     return kBadInput;
   }
-  const std::string name = shard.count == 1 ? "results.jsonl"
-                                            : "results." + std::to_string(shard.index) + "-of-" +
-                                                  std::to_string(shard.count) + ".jsonl";
   ResultsFile file;
   const ResultsScene key{scene->name, scene_hash(*scene), "the scene of this sweep"};
   if (!keep_scene(folder, *scene) || !file.open((folder / name).string(), key)) return kBadInput;
@@ -246,7 +251,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
                    "write the shipped sweep, which the application shows before it runs anything: "
                    "scenes/sweeps/SCENE.txt")
       ->check(named());
-  command->add_flag("--quiet", options->quiet, "no progress, no summary");
+  command->add_flag("--quiet", options->quiet, "no progress, no summary")->excludes("--list");
   options->length.add_to(*command);
   options->settings.add_to(*command, swept_settings(),
                            "is no flag of sweep, which runs every method along its parameters");

@@ -22,7 +22,8 @@ constexpr std::array<Choice, 3> kForces{
       "any step, without loss."},
      {"Numerov",
       "By 1/12, 10/12, 1/12 and with the rate of the forces (after Numerov 1924): fourth order "
-      "with two steps, for scenes of joints, while dt² k < 6 M."}}};
+      "with two steps, for scenes of joints, while dt² k < 6 M. With soft joints in space, and for "
+      "the forces of joints, second order."}}};
 constexpr std::array<Choice, 2> kPolicies{
     {{"frame",
       "N is decided once per frame, from the forces of its last sub-step: the paper's (Giles and "

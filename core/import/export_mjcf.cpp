@@ -18,6 +18,7 @@
 #include "core/model/format_text.hpp"
 #include "core/model/joint_fields.hpp"
 #include "core/model/number_text.hpp"
+#include "core/model/validate.hpp"
 
 namespace substep {
 namespace {
@@ -624,6 +625,12 @@ class MjcfWriter {
 
 }  // namespace
 
-ExportedModel export_mjcf(const Scene& scene) { return MjcfWriter(scene).write(); }
+ExportedModel export_mjcf(const Scene& scene) {
+  const auto refused = refusal_of(&scene);
+  if (!refused) return MjcfWriter(scene).write();
+  ExportedModel none;
+  none.left_out.add(scene.name, *refused);
+  return none;
+}
 
 }  // namespace substep

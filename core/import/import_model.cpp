@@ -55,8 +55,14 @@ std::optional<Scene> read_xml(std::string_view text, const std::string& name,
     report.errors.add(name + ":" + std::to_string(fault.line), fault.message);
     return std::nullopt;
   }
+  const bool is_mjcf = root->name == "mujoco";
+  if (!is_mjcf && !options.key.empty()) report.errors.add(name, "only MJCF has keyframes");
+  if (is_mjcf && options.free_root) {
+    report.errors.add(name, "only URDF has a root that is fixed or free: MJCF has <freejoint>");
+  }
+  if (!report.errors.empty()) return std::nullopt;
   std::optional<Mechanism> mechanism;
-  if (root->name == "mujoco") {
+  if (is_mjcf) {
     mechanism = read_mjcf(*std::move(root), name, files, options, report);
   } else if (root->name == "robot") {
     mechanism = read_urdf(*root, name, options, report);
@@ -81,6 +87,9 @@ std::optional<Scene> read_json(std::string_view text, const std::string& name,
     report.errors.add(name, "is not a model in MJCF, URDF or the JSON of SLRBS");
     return std::nullopt;
   }
+  if (!options.key.empty()) report.errors.add(name, "only MJCF has keyframes");
+  if (options.free_root) report.errors.add(name, "only URDF has a root that is fixed or free");
+  if (!report.errors.empty()) return std::nullopt;
   return read_slrbs(*json, options, report, places);
 }
 

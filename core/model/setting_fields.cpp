@@ -23,7 +23,9 @@ constexpr std::array kFields{
                  FlagSetting{&S::share_iterations}},
     SettingField{"warm_start", "pgs starts from the forces of the previous sub-step",
                  FlagSetting{&S::warm_start}},
-    SettingField{"forces", "poses at which newton evaluates the directions of forces",
+    SettingField{"forces",
+                 "poses at which newton evaluates the directions of forces; numerov is of fourth "
+                 "order, of second with soft joints in space",
                  ChoiceSetting<Forces>{&S::forces}},
     SettingField{"refinements",
                  "additional solves of bpp that remove the effect of the scene's regularisation",

@@ -229,7 +229,8 @@ Kept kept_by_name(const Scene& before, const Scene& changed) {
   const auto joints_now = index_by_name(changed.joints, name_of_joint);
   const auto same_body = [&](int now, int then) {
     if (now == kWorld || then == kWorld) return now == then;
-    return kept.bodies[index(now)] == then;
+    const bool exists = now >= 0 && index(now) < kept.bodies.size();  // else the scene is refused
+    return exists && kept.bodies[index(now)] == then;
   };
   for (const Joint& joint : changed.joints) {
     const JointBase& now = base(joint);

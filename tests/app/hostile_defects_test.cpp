@@ -19,12 +19,42 @@ struct Defect {
   const char* after;    // a shell test: what must be true then
 };
 
-// The folder has p.json, a pendulum, and r/results.jsonl, its sweep, with r/scene.json.
+// The folder has p.json, a pendulum, and r/results.jsonl, its sweep, with r/scene.json; m.xml, a
+// model with the mesh a.obj; and g.urdf. Copies end in .copy.
 const Defect kDefects[] = {
     // A sweep that is shipped onto its scene.
     {"", "sweep p.json --ship p.json", 2, "p.json is an input", "cmp p.json p.copy"},
     {"ln -s p.json l", "sweep p.json --ship l", 2, "l is an input", "cmp p.json p.copy"},
     {"ln p.json h", "sweep p.json --ship h", 2, "h is an input", "cmp p.json p.copy"},
+    // A model and its files are inputs of every command.
+    {"", "import m.xml --out m.xml", 2, "m.xml: it is an input", "cmp m.xml m.copy"},
+    {"ln -s m.xml l", "import m.xml --out l", 2, "l: it is an input", "cmp m.xml m.copy"},
+    {"", "import m.xml --out a.obj", 2, "a.obj: it is an input", "cmp a.obj a.copy"},
+    {"", "run m.xml --frames 1 --quiet --csv a.obj", 2, "a.obj: it is an input",
+     "cmp a.obj a.copy"},
+    {"", "export m.xml --out a.obj", 2, "a.obj: it is an input", "cmp a.obj a.copy"},
+    {"", "cost m.xml --frames 2 --json a.obj", 2, "a.obj: it is an input", "cmp a.obj a.copy"},
+    {"", "doctor m.xml --no-runs --html a.obj", 3, "a.obj: it is an input", "cmp a.obj a.copy"},
+    {"", "sweep m.xml --ship a.obj", 2, "a.obj: it is an input", "cmp a.obj a.copy"},
+    {"", "recommend m.xml --frames 2 --out m.xml", 2, "m.xml: it is an input", "cmp m.xml m.copy"},
+    {"", "export p.json --out ./p.json", 2, "p.json: it is an input", "cmp p.json p.copy"},
+    // Files of a sweep's folder that are the same file.
+    {"ln -sf scene.json r/report.html; cp r/scene.json s", "merge r --quiet", 2,
+     "already used by scene.json", "cmp r/scene.json s"},
+    {"ln -sf results.jsonl r/report.html", "merge r --quiet", 2, "already used by results",
+     "cmp r/results.jsonl results.copy"},
+    {"ln -sf scene.json r/report.html", "sweep p.json --seconds 0.05 --out r", 2,
+     "already used by scene.json", "true"},
+    {"mkdir d; ln -s scene.json d/report.html", "sweep p.json --seconds 0.05 --out d", 2,
+     "already used by scene.json", "[ ! -e d/scene.json ]"},
+    {"mkdir d; head -20 RESULTS >keep; ln keep d/results.jsonl; tail -5 RESULTS "
+     ">d/results.1.jsonl; "
+     "cp keep k",
+     "merge d keep", 2, "d/results.jsonl: it is an input", "cmp keep k"},
+    // A scene from a pipe is read once.
+    {"mkfifo f; (cat p.json >f &)", "run f --frames 1 --quiet", 0, "", "true"},
+    {"rm r/scene.json; mkfifo r/scene.json", "sweep p.json --seconds 0.05 --out r", 2,
+     "r/scene.json: not a regular file", "true"},
     // Results with a field of another type, out of range, or that contradicts another.
     {"mkdir d; sed '2s/\"seconds\":0.05/\"seconds\":\"x\"/' RESULTS >d/results.1.jsonl", "merge d",
      2, "d/results.1.jsonl:2: /seconds: must be a number", "[ ! -e d/results.jsonl ]"},
@@ -75,6 +105,11 @@ const Defect kDefects[] = {
      "the last line is cut short; it is left out", "true"},
     {"truncate -s -9 RESULTS", "sweep p.json --seconds 0.05 --out r --quiet", 0,
      "the last line is cut short; it is removed", "[ $(wc -l <RESULTS) = $(wc -l <results.copy) ]"},
+    // One that is not the beginning of a result is not removed.
+    {"printf 'do not delete me' >>RESULTS", "sweep p.json --seconds 0.05 --out r", 2,
+     "it is unchanged", "grep -q 'do not delete me' RESULTS"},
+    {"mkdir d; { cat RESULTS; printf '[1,2]'; } >d/results.1.jsonl", "merge d", 2,
+     "d/results.1.jsonl:", "[ ! -e d/results.jsonl ]"},
     // The scene of an earlier sweep is damaged.
     {"echo '{' >r/scene.json", "sweep p.json --seconds 0.05 --out r", 2, "r/scene.json: damaged",
      "cmp r/results.jsonl results.copy"},
@@ -117,6 +152,15 @@ const Defect kDefects[] = {
     {"", "run pendulum --frames 1 --alpha 0.1 --alpha 0.2", 2, "--alpha", "true"},
     {"", "run pendulum --frames 1 --preset paper --preset steady", 2, "--preset", "true"},
     {"", "exam --list --quiet", 2, "excludes --", "true"},
+    {"", "sweep pendulum --list --quiet", 2, "excludes --", "true"},
+    {"", "doctor pendulum --no-runs --seconds 5", 2, "--seconds excludes --no-runs", "true"},
+    {"", "doctor pendulum --no-runs --work-budget 1e6", 2, "--no-runs excludes --work-budget",
+     "true"},
+    {"", "doctor pendulum --no-runs --memory-budget 9", 2, "--no-runs excludes --memory-budget",
+     "true"},
+    {"", "import m.xml --free-root", 2, "only URDF has a root", "true"},
+    {"", "import g.urdf --key home", 2, "only MJCF has keyframes", "true"},
+    {"", "merge p.json", 2, "p.json: it is not a folder", "true"},
 };
 
 /// Runs a script in a folder. @return its exit code
@@ -134,17 +178,29 @@ int shell(const fs::path& at, std::string script) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+const char* const kMesh =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+const char* const kModel = R"(<mujoco><asset><mesh name="a" file="a.obj"/></asset><worldbody>
+<body pos="0 0 1"><joint axis="0 1 0"/><geom type="mesh" mesh="a" mass="1"/></body>
+</worldbody></mujoco>)";
+const char* const kUrdf = R"(<robot name="r"><link name="a"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>)";
+
 TEST(HostileDefects, StayMended) {
   const fs::path whole = folder() / "whole";
   fs::remove_all(whole);
   fs::create_directories(whole);
   fs::copy_file(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json", whole / "p.json");
+  std::ofstream(whole / "a.obj") << kMesh;
+  std::ofstream(whole / "m.xml") << kModel;
+  std::ofstream(whole / "g.urdf") << kUrdf;
   const std::string go = "cd \"" + whole.string() + "\" &&";
   ASSERT_EQ(substep("sweep p.json --seconds 0.05 --out r --quiet", go).exit_code, 0);
-  ASSERT_EQ(shell(whole,
-                  "cp p.json p.copy; cp RESULTS results.copy; "
-                  "[ ! -e r/report.html ] || cp r/report.html report.copy"),
-            0);
+  ASSERT_EQ(
+      shell(whole,
+            "for f in p.json m.xml a.obj; do cp $f ${f%.*}.copy; done; cp RESULTS results.copy; "
+            "[ ! -e r/report.html ] || cp r/report.html report.copy"),
+      0);
   const fs::path at = folder() / "files";
   for (const Defect& defect : kDefects) {
     const std::string what = std::string(defect.before) + "; " + defect.command;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/import/export_mjcf.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/frame_columns.hpp"
 #include "core/io/motion_csv.hpp"
@@ -38,6 +39,7 @@
 #include "core/model/grab.hpp"
 #include "core/model/scene_builder.hpp"
 #include "core/model/validate.hpp"
+#include "core/sim/changed_scene.hpp"
 #include "core/sim/conserved.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/sim/start_projection.hpp"
@@ -135,6 +137,19 @@ struct Call {
 // What only has a scene, by module. States are those of its bodies, as far as it has any.
 const std::vector<Call>& calls() {
   static const std::vector<Call> all{
+      // import
+      {"export_mjcf",
+       [](const Scene& s) {
+         const ExportedModel model = export_mjcf(s);
+         EXPECT_EQ(model.text, "");
+         EXPECT_EQ(model.left_out.notes.size(), 1U);
+       }},
+      // sim
+      {"kept_by_name",
+       [](const Scene& s) {
+         EXPECT_EQ(kept_by_name(valid_scene(), s).joints.size(), s.joints.size());
+         EXPECT_EQ(kept_by_name(s, valid_scene()).joints.size(), valid_scene().joints.size());
+       }},
       // model
       {"joined_mass",
        [](const Scene& s) {

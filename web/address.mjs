@@ -115,16 +115,6 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
       : "HTML copied: paste it into a page");
     host.changed?.();
   };
-  /** Opens the step doctor in a new tab. @param text a scene file @param name of the file */
-  host.consult = async (name, text) => {
-    const page = new URL("doctor.html", import.meta.url).href;
-    if (typeof CompressionStream === "undefined") {
-      wasm.tell("This browser cannot hand over the scene: save it, and drop its file on the doctor's page");
-      host.changed?.();
-      return;
-    }
-    window.open(`${page}#name=${encodeURIComponent(name)}&scene64=${await pack(text)}`, "_blank", "noopener");
-  };
   host.openArticle = () => {
     window.open(new URL("example/article.html", import.meta.url).href, "_blank", "noopener");
   };

@@ -11,9 +11,6 @@ EM_JS(void, host_link_changed, (), { Module["host"].linkChanged(); })
 EM_JS(void, host_copy_link, (const char* more), { Module["host"].copyLink(UTF8ToString(more)); })
 EM_JS(void, host_copy_embed, (), { Module["host"].copyEmbed(); })
 EM_JS(void, host_open_article, (), { Module["host"].openArticle(); })
-EM_JS(void, host_consult, (const char* name, const char* text), {
-  Module["host"].consult(UTF8ToString(name), UTF8ToString(text));
-})
 EM_JS(void, host_copy_text, (const char* text), { Module["host"].copyText(UTF8ToString(text)); })
 EM_JS(void, host_open_file, (), { Module["host"].openFile(); })
 EM_JS(void, host_save_file, (const char* name, const char* bytes, int size), {
@@ -53,9 +50,6 @@ Host page_host() {
   host.copy_link = [](const std::string& more) { host_copy_link(more.c_str()); };
   host.copy_embed = host_copy_embed;
   host.open_article = host_open_article;
-  host.consult = [](const std::string& name, const std::string& text) {
-    host_consult(name.c_str(), text.c_str());
-  };
   host.open_file = host_open_file;
   host.save_file = [](const std::string& name, const std::string& bytes) {
     host_save_file(name.c_str(), bytes.data(), static_cast<int>(bytes.size()));

@@ -14,10 +14,8 @@ struct Host {
   /// Copies the experiment's address to the clipboard. @param more further parts of the fragment,
   /// each after an '&'
   std::function<void(const std::string& more)> copy_link;
-  std::function<void()> copy_embed;    // copies HTML that shows the page within another one
-  std::function<void()> open_article;  // opens the article with two laboratories
-  /// Opens the page of the step doctor with a scene file.
-  std::function<void(const std::string& name, const std::string& text)> consult;
+  std::function<void()> copy_embed;     // copies HTML that shows the page within another one
+  std::function<void()> open_article;   // opens the article with two laboratories
   std::function<void()> open_link;      // opens the link on the clipboard
   std::function<void()> open_file;      // opens a file dialogue and loads the chosen scene
   std::function<void(bool on)> record;  // starts or stops a video of the window

@@ -31,10 +31,6 @@ void items(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   }
   if (host.copy_embed && menu_item(look, "Copy HTML to embed it")) host.copy_embed();
   if (menu_item(look, "Copy command", "C")) copy_command(lab);
-  if (host.consult && menu_item(look, "Ask the step doctor")) {
-    const Scene& scene = lab.link_scene();
-    host.consult(scene.name + ".json", write_scene(scene));
-  }
   if (host.open_link && menu_item(look, "Open the copied link")) host.open_link();
   line();
   if (host.open_file && menu_item(look, "Open scene …", "O")) host.open_file();

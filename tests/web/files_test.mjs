@@ -222,23 +222,6 @@ const verdictAfter = (doctor, seconds) => doctor.evaluate((time) => {
 const runsAt = (doctor, text) => doctor.waitForFunction((start) =>
   document.querySelector("#run").textContent.startsWith(start), text, { timeout: 20000 });
 
-test("the laboratory's menu asks the doctor about the scene that runs", async () => {
-  const lab = await openPage(session, { fragment: "scene=swinging_box&edit=box;mass:4000" });
-  await call(lab, "pause");
-  await drawn(lab);
-  const { text } = await call(lab, "sceneText");
-  assert.equal(JSON.parse(text).bodies.find(({ name }) => name === "box").mass, 4000);
-  const [doctor] = await Promise.all([lab.context().waitForEvent("page"), pick(lab, "Ask the step doctor")]);
-  await answered(doctor);
-  assert.match(await doctor.locator("#patient").innerText(), /swinging_box\.json/);
-  await save(doctor, "doctor-from-the-laboratory");
-  const found = await diagnosed(doctor);
-  assert.ok(found.largest_step > 0);
-  if (program) assert.equal(found.largest_step, byCommandLine(text).largest_step);
-  await doctor.close();
-  await leave(lab);
-});
-
 test("the doctor reads the step of a model, fails above it, and a link has the same numbers", async () => {
   const doctor = await openPage(session, { path: "doctor.html" });
   await doctor.context().grantPermissions(["clipboard-read", "clipboard-write"]);

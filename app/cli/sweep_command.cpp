@@ -251,7 +251,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
                    "write the shipped sweep, which the application shows before it runs anything: "
                    "scenes/sweeps/SCENE.txt")
       ->check(named());
-  command->add_flag("--quiet", options->quiet, "no progress, no summary")->excludes("--list");
+  command->add_flag("--quiet", options->quiet, "no progress, no summary");
   options->length.add_to(*command);
   options->settings.add_to(*command, swept_settings(),
                            "is no flag of sweep, which runs every method along its parameters");

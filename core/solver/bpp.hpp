@@ -25,6 +25,8 @@ namespace substep {
 /// 2021). Each refinement reuses the factor, unless rows change sets.
 class Bpp final : public Solver {
  public:
+  /// @param shares which rows share the impulses of redundant ones
+  explicit Bpp(SaddleLdlt::Redundant shares = SaddleLdlt::Redundant::kShares) : least_(shares) {}
   void reserve(std::size_t bodies, std::size_t blocks) override;
   SolveReport find_velocities(const System& system, const Settings& settings) override;
   /// Where contacts yield, or without any, the factor is used again, and bounds of friction are
@@ -32,10 +34,6 @@ class Bpp final : public Solver {
   SolveReport find_velocities_again(const System& system, const Settings& settings,
                                     bool keeps_bounds) override;
   std::int64_t find_impulses(std::span<Block> blocks) override;
-  /// After find_impulses(), if rows may be redundant: the velocities under these impulses. They
-  /// differ from u+ where rows are redundant only to the order of the sub-step, as those of Newton
-  /// at the poses between. Else empty.
-  [[nodiscard]] std::span<const Vec6> velocities_of_impulses() const { return redundant_.u; }
 
  private:
   /// The same for rows whose tangents are aligned and whose bias contains the centre.

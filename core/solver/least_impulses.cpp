@@ -65,12 +65,10 @@ std::int64_t LeastImpulses::find(const System& system, std::span<const Vec6> u_s
     }
     flops += residual_flops(block);
   }
-  for (std::size_t i = 0; i < u_.size(); ++i) system.u[i] -= u_[i];
   u_.assign(u_star.size(), Vec6::Zero());
   const System from_rest{rows_.all(), inverse_mass, u_};
   ldlt_.begin(from_rest);
   ldlt_.refine(from_rest);
-  for (std::size_t i = 0; i < u_.size(); ++i) system.u[i] += u_[i];
   std::size_t next = 0;
   for (Block& block : system.blocks) {
     if (block.binds()) continue;

@@ -17,16 +17,17 @@ namespace substep {
 /// of a joint of one unit, so that units, axes, and the order of bodies and joints do not matter.
 class LeastImpulses {
  public:
+  explicit LeastImpulses(SaddleLdlt::Redundant shares) : ldlt_(shares) {}
   /// Replaces the impulses of rows without bounds if exact joints form a loop; those of rows with
-  /// bounds, such as contacts and motors, are kept. u+ follows the impulses where rows are not
-  /// quite redundant. @param system solved: with u+ and impulses  @return floating-point operations
+  /// bounds, such as contacts and motors, are kept. @param system solved: with u+ and impulses
+  /// @return floating-point operations
   std::int64_t find(const System& system, std::span<const Vec6> u_star);
 
  private:
   [[nodiscard]] bool has_loop(std::span<const Block> blocks,
                               std::span<const InverseMass> inverse_mass);
 
-  SaddleLdlt ldlt_{SaddleLdlt::Redundant::kShares};
+  SaddleLdlt ldlt_;
   Blocks rows_;              // those without bounds
   std::vector<Vec6> u_;      // per body: change of the velocity [m/s, rad/s]
   std::vector<int> linked_;  // per body, the last is the world: a body of its group

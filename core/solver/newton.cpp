@@ -52,8 +52,9 @@ class Newton final : public Solver {
   /// Applies the solution of the linear system. @return largest relative change of a velocity
   double take(const System& system);
 
-  // The linear system of a step.
-  Bpp linear_;
+  // The linear system of a step. Its rows are redundant only to the order of the sub-step, so that
+  // impulses must be shared by the rows that share in the solve for the velocities.
+  Bpp linear_{SaddleLdlt::Redundant::kSharesOutside};
   std::vector<Block> rows_;  // the blocks at the end of the sub-step
   std::vector<InverseMass> inverse_mass_;
   std::vector<Vec6> u_;
@@ -274,7 +275,6 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
       if (step.work_needed > 0.0) step.work_needed += static_cast<double>(report.flops);
       return step;
     }
-    if (!linear_.velocities_of_impulses().empty()) copy(linear_.velocities_of_impulses(), u_);
     change = take(system);
     ++report.iterations;
     report.status = step.status;

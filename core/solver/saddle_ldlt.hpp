@@ -36,8 +36,9 @@ class SaddleLdlt {
  public:
   /// What refine() makes of redundant rows, which have no unique impulses.
   enum class Redundant : std::uint8_t {
-    kFast,   // articulated nodes stay exact, which is enough for the velocities
-    kShares  // no node is articulated, and all rows share: the impulses are of least norm too
+    kFast,           // articulated nodes stay exact, which is enough for the velocities
+    kSharesOutside,  // so they do, and the other rows share: their impulses are of least norm
+    kShares          // no node is articulated, and all rows share
   };
   /// Of the mobility: the softness in refine() where all rows share. Corrections converge more
   /// slowly than with less; singular poses do not matter, because the velocities are known.

@@ -97,7 +97,7 @@ void SaddleLdlt::soften_all(double share) {
 
 void SaddleLdlt::correct(const System& system) {
   const std::span<Block> blocks = system.blocks;
-  const bool consistent = redundant_ == Redundant::kShares;  // rows that can be met
+  const bool consistent = redundant_ != Redundant::kFast;  // rows that can be met
   find_skipped_impulses(blocks);
   copy(u_star_, u_begun_);
   for (std::size_t k = 0; k < blocks.size(); ++k) {

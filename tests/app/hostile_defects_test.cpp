@@ -152,7 +152,6 @@ const Defect kDefects[] = {
     {"", "run pendulum --frames 1 --alpha 0.1 --alpha 0.2", 2, "--alpha", "true"},
     {"", "run pendulum --frames 1 --preset paper --preset steady", 2, "--preset", "true"},
     {"", "exam --list --quiet", 2, "excludes --", "true"},
-    {"", "sweep pendulum --list --quiet", 2, "excludes --", "true"},
     {"", "doctor pendulum --no-runs --seconds 5", 2, "--seconds excludes --no-runs", "true"},
     {"", "doctor pendulum --no-runs --work-budget 1e6", 2, "--no-runs excludes --work-budget",
      "true"},

@@ -44,9 +44,9 @@ std::mutex g_commit;
 std::mutex g_outputs;       // of the list, and of creating temporary files
 Output* g_first = nullptr;  // open outputs
 
-// The inputs, by device and number: whether an output may replace them in place.
-std::mutex g_inputs;
-std::map<std::pair<dev_t, ino_t>, bool> g_by_request;
+std::mutex g_mutex_of_inputs;
+// By device and number: whether an output that is opened in place may replace the file.
+std::map<std::pair<dev_t, ino_t>, bool> g_inputs;
 
 /// The target of a path with all links resolved, even if the file does not exist.
 fs::path target_of(const std::string& path, std::error_code& error) {
@@ -91,20 +91,22 @@ bool same_output(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-void protect_input(const std::string& path, bool by_request) {
+void protect_input(const std::string& path, bool in_place) {
   const auto found = about(path);
   if (!found || !S_ISREG(found->st_mode)) return;
-  const std::lock_guard lock(g_inputs);
-  bool& before = g_by_request.try_emplace({found->st_dev, found->st_ino}, true).first->second;
-  before = before && by_request;
+  const std::lock_guard lock(g_mutex_of_inputs);
+  bool& replaceable = g_inputs.try_emplace({found->st_dev, found->st_ino}, true).first->second;
+  replaceable = replaceable && in_place;
 }
 
-bool is_protected(const std::string& path, bool in_place) {
+bool spares_inputs(const std::string& path, bool in_place) {
   const auto found = about(path);
-  if (!found) return false;
-  const std::lock_guard lock(g_inputs);
-  const auto known = g_by_request.find({found->st_dev, found->st_ino});
-  return known != g_by_request.end() && !(in_place && known->second);
+  if (!found || is_standard_output(path)) return true;
+  const std::lock_guard lock(g_mutex_of_inputs);
+  const auto known = g_inputs.find({found->st_dev, found->st_ino});
+  if (known == g_inputs.end() || (in_place && known->second)) return true;
+  complain("%s: it is an input, and would be overwritten", path.c_str());
+  return false;
 }
 
 Output::~Output() { discard(); }
@@ -117,10 +119,7 @@ bool Output::fail(int error) const {
 bool Output::open(const std::string& path, bool in_place) {
   path_ = path;
   if (path.empty()) return true;
-  if (!is_standard_output(path) && is_protected(path, in_place)) {
-    complain("%s: it is an input, and would be overwritten", path.c_str());
-    return false;
-  }
+  if (!spares_inputs(path, in_place)) return false;
   const auto found = about(path);
   const bool standard = is_standard_output(path);
   if (!standard && found && S_ISDIR(found->st_mode)) return fail(EISDIR);

@@ -9,12 +9,12 @@
 
 namespace substep::cli {
 
-/// Declares a file that the program has read: no Output replaces it. Not for pipes and devices.
-/// @param by_request an Output that is opened in place may
-void protect_input(const std::string& path, bool by_request = false);
+/// Declares a file that the program has read, so that no output replaces it. Pipes and devices have
+/// nothing to protect. @param in_place an output that is opened in place may replace it
+void protect_input(const std::string& path, bool in_place = false);
 
-/// Whether a path names a file that no Output may replace, in place or not.
-bool is_protected(const std::string& path, bool in_place);
+/// @return false, with a message on stderr, if an output of this path would replace an input
+bool spares_inputs(const std::string& path, bool in_place = false);
 
 /// A result file, "-" for standard output; an empty path opens nothing. A file is written under a
 /// temporary name and renamed when it is closed successfully; until then, and on any error, the
@@ -27,7 +27,7 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// @param in_place it may replace an input, see protect_input()
+  /// @param in_place it may replace the input that it changes, see protect_input()
   /// @return false, with a message on stderr, if the file cannot be written
   bool open(const std::string& path, bool in_place = false);
   void write(const std::string& text);

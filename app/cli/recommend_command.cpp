@@ -229,6 +229,7 @@ int recommend(const RecommendOptions& options) {
   std::shared_ptr<const Scene> scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   // If the scene goes to standard output, messages go to stderr.
+  if (!options.out.empty() && !spares_inputs(options.out, true)) return kBadInput;
   std::FILE* words = is_standard_output(options.out) ? stderr : stdout;
   const double seconds = static_cast<double>(options.length.count(*scene)) * scene->frame;
   Question question;

@@ -91,16 +91,16 @@ bool ResultsFile::read() {
   std::string text;
   if (!load(text)) return false;
   const std::size_t size = text.size();
-  // A killed program leaves a truncated line without a line feed. An editor may leave a whole one.
+  // A killed program leaves a truncated line without a line feed. An editor may leave others.
   const std::size_t whole = text.rfind('\n') + 1;  // npos + 1 is 0
   const std::string end = text.substr(whole);
-  const bool ends_whole = is_whole_line(end) || (!end.empty() && whole > 0 && !is_cut_line(end));
+  const bool has_line = !end.empty() && !is_cut_line(end);
   const std::string header = results_header();
-  if (whole == 0 && !ends_whole && text != header.substr(0, text.size())) {
+  if (whole == 0 && !has_line && text != header.substr(0, text.size())) {
     tell(path_, "not a results file of substep; it is unchanged");
     return false;
   }
-  ends_whole ? text.push_back('\n') : text.resize(whole);
+  has_line ? text.push_back('\n') : text.resize(whole);
   if (!text.empty()) {
     Problems problems;
     check_results_header(text.substr(0, text.find('\n')), problems);
@@ -112,7 +112,7 @@ bool ResultsFile::read() {
       return false;
     }
   }
-  if (ends_whole) return write("\n");
+  if (has_line) return write("\n");
   if (whole < size) {
     const auto line = std::to_string(std::count(text.begin(), text.end(), '\n') + 1);
     complain("%s:%s: the last line is cut short; it is removed", path_.c_str(), line.c_str());
@@ -126,10 +126,7 @@ bool ResultsFile::read() {
 
 bool ResultsFile::open(const std::string& path, const ResultsScene& scene) {
   path_ = path;
-  if (is_protected(path_, true)) {
-    tell(path_, "it is an input, and would be changed");
-    return false;
-  }
+  if (!spares_inputs(path_, true)) return false;
   results_.bind(scene);
   return take_lock() && read();
 }

@@ -83,12 +83,6 @@ std::string StoredResults::text() const {
   return text;
 }
 
-bool is_whole_line(const std::string& end) {
-  Problems problems;
-  const auto json = parse_json(end, problems);
-  return json && json->is_object();
-}
-
 bool is_cut_line(const std::string& end) {
   if (!end.starts_with('{')) return false;
   try {

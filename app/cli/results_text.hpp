@@ -52,11 +52,8 @@ class StoredResults {
   std::vector<std::string> order_;
 };
 
-/// Whether the end of a results file, without a line feed, is a whole line: the program that wrote
-/// it, or a copy of it, was not cut short.
-bool is_whole_line(const std::string& end);
-
-/// Whether it is the beginning of such a line, as a killed program leaves it.
+/// Whether the end of a results file, without a line feed, is the beginning of a line, as a killed
+/// program or an incomplete copy leaves it.
 bool is_cut_line(const std::string& end);
 
 }  // namespace substep::cli

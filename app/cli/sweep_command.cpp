@@ -110,7 +110,7 @@ std::string progress_text(double share, std::size_t runs, std::size_t all, std::
 /// Runs the sweep that is shipped with a scene (scenes/sweeps) and writes its file.
 int ship(const SweepOptions& options) {
   const auto scene = load_scene(options.scene);
-  if (!scene) return kBadInput;
+  if (!scene || !spares_inputs(options.ship)) return kBadInput;
   const auto results = run_experiments(scene, quick_sweep(*scene), options.jobs);
   if (!results) return kCancelled;
   const std::string text = sweep_text(*results, results->front().reference);

@@ -1,6 +1,7 @@
 #include "core/import/import_model.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -46,6 +47,20 @@ void add_problem(const Problem& problem, const ScenePlaces& places, const Scene&
   }
 }
 
+enum class Format : std::uint8_t { kMjcf, kUrdf, kSlrbs };
+
+/// False, with errors, if options are given that the format does not have.
+bool takes_options(Format format, const std::string& name, const ImportOptions& options,
+                   ImportReport& report) {
+  if (!options.key.empty() && format != Format::kMjcf) {
+    report.errors.add(name, "only MJCF has keyframes");
+  }
+  if (options.free_root && format != Format::kUrdf) {
+    report.errors.add(name, "only the root link of URDF can be freed");
+  }
+  return report.errors.empty();
+}
+
 std::optional<Scene> read_xml(std::string_view text, const std::string& name,
                               const ModelFiles& files, const ImportOptions& options,
                               ImportReport& report, ScenePlaces& places) {
@@ -55,16 +70,12 @@ std::optional<Scene> read_xml(std::string_view text, const std::string& name,
     report.errors.add(name + ":" + std::to_string(fault.line), fault.message);
     return std::nullopt;
   }
-  const bool is_mjcf = root->name == "mujoco";
-  if (!is_mjcf && !options.key.empty()) report.errors.add(name, "only MJCF has keyframes");
-  if (is_mjcf && options.free_root) {
-    report.errors.add(name, "only URDF has a root that is fixed or free: MJCF has <freejoint>");
-  }
-  if (!report.errors.empty()) return std::nullopt;
   std::optional<Mechanism> mechanism;
-  if (is_mjcf) {
+  if (root->name == "mujoco") {
+    if (!takes_options(Format::kMjcf, name, options, report)) return std::nullopt;
     mechanism = read_mjcf(*std::move(root), name, files, options, report);
   } else if (root->name == "robot") {
+    if (!takes_options(Format::kUrdf, name, options, report)) return std::nullopt;
     mechanism = read_urdf(*root, name, options, report);
   } else {
     report.errors.add(name + ":" + std::to_string(root->line),
@@ -87,9 +98,7 @@ std::optional<Scene> read_json(std::string_view text, const std::string& name,
     report.errors.add(name, "is not a model in MJCF, URDF or the JSON of SLRBS");
     return std::nullopt;
   }
-  if (!options.key.empty()) report.errors.add(name, "only MJCF has keyframes");
-  if (options.free_root) report.errors.add(name, "only URDF has a root that is fixed or free");
-  if (!report.errors.empty()) return std::nullopt;
+  if (!takes_options(Format::kSlrbs, name, options, report)) return std::nullopt;
   return read_slrbs(*json, options, report, places);
 }
 

@@ -8,6 +8,7 @@
 #include "core/constraints/joint_stage.hpp"
 #include "core/forces/applied_forces.hpp"
 #include "core/math/dense.hpp"
+#include "core/math/disjoint_sets.hpp"
 #include "core/math/gyroscopic.hpp"
 #include "core/model/joint_fields.hpp"
 #include "core/model/validate.hpp"
@@ -20,29 +21,25 @@ namespace substep {
 namespace {
 
 constexpr double kDependentRow = 1e-9;  // of rows scaled to 1: below it others imply one
-constexpr double kStiff =
-    1e4;  // dt^2 k/m over a frame, from which a compliant row is taken as rigid
+// dt^2 k/m over a frame, from which a compliant row is taken as rigid.
+constexpr double kStiff = 1e4;
 
 /// Moving bodies that joints connect, with their joints; groups without joints too.
 std::vector<Part> groups_of(const Scene& scene) {
-  std::vector<int> root(scene.bodies.size());
-  for (std::size_t i = 0; i < root.size(); ++i) root[i] = static_cast<int>(i);
-  const auto find = [&](int i) {
-    while (root[index(i)] != i) i = root[index(i)] = root[index(root[index(i)])];
-    return i;
-  };
+  DisjointSets connected;
+  connected.reset(scene.bodies.size());
   if (scene.effects.joints) {
     for (const Joint& joint : scene.joints) {
       const JointBase& of = base(joint);
       if (is_fixed(scene, of.a) || is_fixed(scene, of.b)) continue;
-      root[index(find(of.a))] = find(of.b);
+      connected.unite(of.a, of.b);
     }
   }
   std::vector<Part> groups;
   std::vector<int> group_of(scene.bodies.size(), -1);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (scene.bodies[i].is_static) continue;
-    int& group = group_of[index(find(static_cast<int>(i)))];
+    int& group = group_of[index(connected.root(static_cast<int>(i)))];
     if (group < 0) {
       group = static_cast<int>(groups.size());
       groups.emplace_back().has.resize(scene.bodies.size());

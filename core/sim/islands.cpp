@@ -9,11 +9,9 @@
 namespace substep {
 
 Islands::Islands(const Scene& scene)
-    : parent_(scene.bodies.size()),
-      speed_(scene.bodies.size()),
-      way_(scene.bodies.size()),
-      island_(scene.bodies.size()) {
+    : speed_(scene.bodies.size()), way_(scene.bodies.size()), island_(scene.bodies.size()) {
   const std::size_t n = scene.bodies.size();
+  connected_.reserve(n);
   bodies_.reserve(n);
   first_.reserve(n + 1);
   n_.reserve(n);
@@ -30,38 +28,21 @@ void Islands::add_part(const Scene& scene) {
   part.has.reserve(scene.bodies.size());
 }
 
-int Islands::root(int body) {
-  while (parent_[index(body)] != body) {
-    int& parent = parent_[index(body)];
-    parent = parent_[index(parent)];  // path halving
-    body = parent;
-  }
-  return body;
-}
-
-// The root is the first body of its island.
-bool Islands::connect(int a, int b) {
-  const int p = root(a);
-  const int q = root(b);
-  parent_[index(std::max(p, q))] = std::min(p, q);
-  return p != q;
-}
-
 void Islands::find(const Scene& scene, const Part& all, const State& state,
                    std::span<const Mat3> R_WB, double ahead, Detector* detector) {
   const auto moves = [&](int body) { return body >= 0 && !scene.bodies[index(body)].is_static; };
-  std::iota(parent_.begin(), parent_.end(), 0);
+  connected_.reset(scene.bodies.size());
   if (scene.effects.joints) {
     for (const Joint& joint : scene.joints) {
       const JointBase& j = base(joint);
-      if (moves(j.a) && moves(j.b)) connect(j.a, j.b);
+      if (moves(j.a) && moves(j.b)) connected_.unite(j.a, j.b);
     }
   }
   for (bool grown = detector != nullptr; grown;) {
     grown = false;
     set_ways(scene, state, ahead);
     for (const BroadPhase::Pair& pair : detector->within_reach(scene, all, state, R_WB, way_)) {
-      if (moves(pair.i) && moves(pair.j) && connect(pair.i, pair.j)) grown = true;
+      if (moves(pair.i) && moves(pair.j) && connected_.unite(pair.i, pair.j)) grown = true;
     }
   }
   list(scene);
@@ -69,30 +50,33 @@ void Islands::find(const Scene& scene, const Part& all, const State& state,
 
 void Islands::set_ways(const Scene& scene, const State& state, double ahead) {
   std::fill(speed_.begin(), speed_.end(), 0.0);
-  const auto n = static_cast<int>(parent_.size());
+  const auto n = static_cast<int>(island_.size());
   for (int i = 0; i < n; ++i) {
-    double& fastest = speed_[index(root(i))];
+    double& fastest = speed_[index(connected_.root(i))];
     const Body& body = scene.bodies[index(i)];
     fastest = std::max(
         fastest, fastest_point(body, state.u[index(i)]) + ahead * acceleration_bound(scene, body));
   }
   for (int i = 0; i < n; ++i) {
-    way_[index(i)] = scene.bodies[index(i)].is_static ? 0.0 : ahead * speed_[index(root(i))];
+    way_[index(i)] =
+        scene.bodies[index(i)].is_static ? 0.0 : ahead * speed_[index(connected_.root(i))];
   }
 }
 
 void Islands::list(const Scene& scene) {
   first_.assign(1, 0);
-  for (int i = 0; i < static_cast<int>(parent_.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(island_.size()); ++i) {
     const bool moves = !scene.bodies[index(i)].is_static;
-    if (moves && root(i) == i) first_.push_back(0);
+    if (moves && connected_.root(i) == i) first_.push_back(0);
     // The root precedes all other bodies of its island.
-    island_[index(i)] = !moves ? -1 : root(i) == i ? count() - 1 : island_[index(root(i))];
+    island_[index(i)] = !moves                    ? -1
+                        : connected_.root(i) == i ? count() - 1
+                                                  : island_[index(connected_.root(i))];
     if (moves) ++first_[index(island_[index(i)]) + 1];
   }
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   bodies_.resize(index(first_.back()));
-  for (int i = static_cast<int>(parent_.size()); i-- > 0;) {
+  for (int i = static_cast<int>(island_.size()); i-- > 0;) {
     if (island_[index(i)] >= 0) bodies_[index(--first_[index(island_[index(i)]) + 1])] = i;
   }
   // Offsets are now shifted by one place.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/collision/detector.hpp"
+#include "core/math/disjoint_sets.hpp"
 #include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
@@ -42,14 +43,12 @@ class Islands {
   [[nodiscard]] std::span<const Part> parts() const { return {parts_.data(), levels_.size()}; }
 
  private:
-  int root(int body);
-  bool connect(int a, int b);  // true if they were separate
   void set_ways(const Scene& scene, const State& state, double ahead);
   void list(const Scene& scene);
   void make_parts(const Scene& scene);
   void add_part(const Scene& scene);
 
-  std::vector<int> parent_;    // per body: parent towards the root, its island's first body
+  DisjointSets connected_;     // bodies; a root is the first body of its island
   std::vector<double> speed_;  // per root: bound on the speed of its bodies' points [m/s]
   std::vector<double> way_;    // per body: bound on the travel of its points in the frame [m]
   std::vector<int> island_;    // per body, -1 if static

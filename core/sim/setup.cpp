@@ -3,11 +3,25 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/math/disjoint_sets.hpp"
 #include "core/model/validate.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/gyroscopic_stage.hpp"
 
 namespace substep {
+namespace {
+
+bool joints_form_loops(const Scene& scene) {
+  const auto world = static_cast<int>(scene.bodies.size());
+  const auto number_of = [&](int body) { return is_fixed(scene, body) ? world : body; };
+  DisjointSets joined;
+  joined.reset(scene.bodies.size() + 1);
+  return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
+    return !joined.unite(number_of(base(joint).a), number_of(base(joint).b));
+  });
+}
+
+}  // namespace
 
 Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     : scene(std::move(scene_in)), settings(scene->settings), current(*scene) {
@@ -38,7 +52,8 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
                                (coordinates ? coordinates->size() : 0) +
                                (contact ? 4 * n + 16 : 0) + 1;
   blocks.reserve(n_blocks);
-  solver->reserve(n, n_blocks);
+  has_loops = joints && joints_form_loops(*scene);
+  solver->reserve(n, n_blocks, has_loops);
   if (restitution) restitution->reserve(n_blocks);
   state.forces.reserve(n_blocks);
   before_frame.forces.reserve(n_blocks);
@@ -198,7 +213,7 @@ void Simulator::set_settings(const Settings& settings) {
   }
   if (!other_solver) return;
   impl_->solver = make_solver(settings.solver);
-  impl_->solver->reserve(impl_->scene->bodies.size(), impl_->blocks.capacity());
+  impl_->solver->reserve(impl_->scene->bodies.size(), impl_->blocks.capacity(), impl_->has_loops);
 }
 
 }  // namespace substep

@@ -233,6 +233,7 @@ struct Simulator::Impl {
   FrameReport stopped;              // the report of the frame that failed
 
   Part all;                          // of the scene
+  bool has_loops = false;            // joints form loops
   double heaviest = 1.0;             // largest mass or moment of a moving body, >= 1 [kg, kg m^2]
   std::unique_ptr<Islands> islands;  // built on first use
 

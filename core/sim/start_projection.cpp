@@ -37,7 +37,7 @@ class StartRows {
         R_WB_(scene.bodies.size()),
         inverse_mass_(scene.bodies.size()) {
     for (const Joint& joint : scene.joints) sizes_.push_back(size_of_joint(scene, base(joint)));
-    solver_.reserve(scene.bodies.size(), scene.joints.size());
+    solver_.reserve(scene.bodies.size(), scene.joints.size(), false);
     update();
     for (const Block& block : blocks_.all()) {
       holds_.push_back(holding_rows(block, inverse_mass_, scene.frame));

@@ -63,7 +63,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, bool shortens, FrameReport& repo
     swept->reserve(blocks.capacity());
     parting.reserve(blocks.capacity());
     impact_rows.reserve(blocks.capacity());
-    impact_solver().reserve(state.u.size(), blocks.capacity());
+    impact_solver().reserve(state.u.size(), blocks.capacity(), has_loops);
   }
   gain.resize(state.u.size());
   u_rebounding.resize(state.u.size());

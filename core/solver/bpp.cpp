@@ -58,12 +58,14 @@ double Bpp::impulse_tolerance(const System& system, const Block& contact, int ro
          kTolerance * std::abs(contact.impulse[row]);
 }
 
-void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
+void Bpp::reserve(std::size_t bodies, std::size_t blocks, bool loops) {
   ldlt_.reserve(bodies, blocks);
   friction_bound_.reserve(blocks);
   centre_.reserve(blocks);
   unmet_.reserve(blocks);
-  gauss_seidel_.reserve(bodies, blocks);
+  found_.reserve(bodies);
+  if (loops) least_.reserve(bodies, blocks);
+  gauss_seidel_.reserve(bodies, blocks, loops);
   interior_point_.reserve(blocks);
   bounds_.reserve(blocks * kMaxRows);
 }

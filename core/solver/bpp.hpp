@@ -25,9 +25,10 @@ namespace substep {
 /// 2021). Each refinement reuses the factor, unless rows change sets.
 class Bpp final : public Solver {
  public:
-  /// @param shares which rows share the impulses of redundant ones
-  explicit Bpp(SaddleLdlt::Redundant shares = SaddleLdlt::Redundant::kShares) : least_(shares) {}
-  void reserve(std::size_t bodies, std::size_t blocks) override;
+  /// @param redundant the impulses of redundant rows
+  explicit Bpp(SaddleLdlt::Redundant redundant = SaddleLdlt::Redundant::kImpulses)
+      : least_(redundant) {}
+  void reserve(std::size_t bodies, std::size_t blocks, bool loops) override;
   SolveReport find_velocities(const System& system, const Settings& settings) override;
   /// Where contacts yield, or without any, the factor is used again, and bounds of friction are
   /// refreshed at most once.
@@ -48,7 +49,7 @@ class Bpp final : public Solver {
                           bool& approached, SolveReport& report);
   void centre(const System& system);
   void solve_redundant(const System& system);
-  /// For find_impulses().
+  /// Keeps u+ for find_impulses() if rows may be redundant.
   void keep_redundant(const System& system);
   /// A row's new set.
   struct Move {
@@ -99,7 +100,8 @@ class Bpp final : public Solver {
     double row[kMaxRows];
   };
   std::vector<RowValues> centre_;  // per block: centre of the regularisation [N s or N m s]
-  std::vector<RowValues> unmet_;   // per block: w of redundant rows that no impulse makes 0 [m/s]
+  std::vector<RowValues>
+      unmet_;  // per block: w of redundant rows that no impulse makes 0 [m/s, rad/s]
 };
 
 }  // namespace substep

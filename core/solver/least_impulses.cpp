@@ -1,7 +1,6 @@
 #include "core/solver/least_impulses.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/solver/cost_model.hpp"
 
@@ -20,24 +19,20 @@ bool is_exact(const Block& joint, std::span<const InverseMass> inverse_mass) {
 
 }  // namespace
 
+void LeastImpulses::reserve(std::size_t bodies, std::size_t blocks) {
+  ldlt_.reserve(bodies, blocks);
+  rows_.reserve(blocks);
+  u_.reserve(bodies);
+  joined_.reserve(bodies + 1);
+}
+
 bool LeastImpulses::has_loop(std::span<const Block> blocks,
                              std::span<const InverseMass> inverse_mass) {
-  linked_.resize(inverse_mass.size() + 1);
-  std::iota(linked_.begin(), linked_.end(), 0);
-  const auto first_of = [&](int body) {
-    std::size_t at = body < 0 ? linked_.size() - 1 : index(body);
-    while (index(linked_[at]) != at) {
-      linked_[at] = linked_[index(linked_[at])];
-      at = index(linked_[at]);
-    }
-    return at;
-  };
+  const auto world = static_cast<int>(inverse_mass.size());
+  joined_.reset(inverse_mass.size() + 1);
   return std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
-    if (block.is_bounded() || !is_exact(block, inverse_mass)) return false;
-    const std::size_t a = first_of(block.a);
-    const std::size_t b = first_of(block.b);
-    linked_[a] = static_cast<int>(b);
-    return a == b;
+    return !block.is_bounded() && is_exact(block, inverse_mass) &&
+           !joined_.unite(block.a < 0 ? world : block.a, block.b < 0 ? world : block.b);
   });
 }
 

@@ -38,7 +38,7 @@ namespace substep {
 /// forces of the last sub-step and from System::u_guess or its velocities.
 class Newton final : public Solver {
  public:
-  void reserve(std::size_t bodies, std::size_t blocks) override;
+  void reserve(std::size_t bodies, std::size_t blocks, bool loops) override;
   SolveReport find_velocities(const System& system, const Settings& settings) override;
 
  private:
@@ -52,9 +52,9 @@ class Newton final : public Solver {
   /// Applies the solution of the linear system. @return largest relative change of a velocity
   double take(const System& system);
 
-  // The linear system of a step. Its rows are redundant only to the order of the sub-step, so that
-  // impulses must be shared by the rows that share in the solve for the velocities.
-  Bpp linear_{SaddleLdlt::Redundant::kSharesOutside};
+  // The linear system of a step. Its rows are redundant only to the order of the sub-step: the
+  // choice of impulses acts on the velocities, and must be the one of the solve for these.
+  Bpp linear_{SaddleLdlt::Redundant::kImpulsesOfCycles};
   std::vector<Block> rows_;  // the blocks at the end of the sub-step
   std::vector<InverseMass> inverse_mass_;
   std::vector<Vec6> u_;
@@ -97,8 +97,8 @@ void copy_start(const Block& start, Block& row) {
 
 }  // namespace
 
-void Newton::reserve(std::size_t bodies, std::size_t blocks) {
-  linear_.reserve(bodies, blocks);
+void Newton::reserve(std::size_t bodies, std::size_t blocks, bool loops) {
+  linear_.reserve(bodies, blocks, loops);
   rows_.reserve(blocks);
   back_.reserve(blocks);
   K_.reserve(bodies);

@@ -272,14 +272,14 @@ void update(V& block, std::span<Vec6> u) {
 
 }  // namespace
 
-void Pgs::reserve(std::size_t /*bodies*/, std::size_t blocks) {
+void Pgs::reserve(std::size_t /*bodies*/, std::size_t blocks, bool /*loops*/) {
   if (blocks * kLongest <= capacity_) return;
   capacity_ = blocks * kLongest;
   records_.reset(new std::byte[capacity_]);  // unlike make_unique, uninitialised
 }
 
 void Pgs::pack(const System& system, bool warm_start, bool cone) {
-  reserve(system.u.size(), system.blocks.size());
+  reserve(system.u.size(), system.blocks.size(), false);
   std::byte* at = records_.get();
   for (Block& block : system.blocks) {
     if (!warm_start) std::fill(block.impulse, block.impulse + block.rows, 0.0);

@@ -13,7 +13,7 @@ namespace substep {
 /// zero or, with Settings::warm_start, from the seeds.
 class Pgs final : public Solver {
  public:
-  void reserve(std::size_t bodies, std::size_t blocks) override;
+  void reserve(std::size_t bodies, std::size_t blocks, bool loops) override;
   SolveReport find_velocities(const System& system, const Settings& settings) override;
 
  private:

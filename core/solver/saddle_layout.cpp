@@ -325,7 +325,7 @@ void SaddleLdlt::choose_kind(Node& node, const System& system) {
                  ArticulatedJoint::handles(blocks[index(attached[0].block)]) &&
                  node.coupled == (attached[0].other < 0 ? 0 : 1);
   if (node.in_tree) attached[0].yields = yields(blocks[index(attached[0].block)], system);
-  if (node.in_tree && !attached[0].yields && redundant_ != Redundant::kShares) {
+  if (node.in_tree && !attached[0].yields && redundant_ != Redundant::kImpulses) {
     node.kind = NodeKind::kArticulated;
     const Block& joint = blocks[index(attached[0].block)];
     attached[0].exact = std::all_of(joint.softness, joint.softness + joint.rows,

@@ -34,17 +34,17 @@ namespace substep {
 /// When rows become active or free, only their nodes and the ancestors of these are refactored.
 class SaddleLdlt {
  public:
-  /// What refine() makes of redundant rows, which have no unique impulses.
+  /// What refine() finds where rows are redundant, so that their impulses are not unique.
   enum class Redundant : std::uint8_t {
-    kFast,           // articulated nodes stay exact, which is enough for the velocities
-    kSharesOutside,  // so they do, and the other rows share: their impulses are of least norm
-    kShares          // no node is articulated, and all rows share
+    kVelocities,        // and some impulses
+    kImpulsesOfCycles,  // those of least norm of the rows outside articulated nodes
+    kImpulses           // those of least norm of all rows: no node is articulated
   };
-  /// Of the mobility: the softness in refine() where all rows share. Corrections converge more
-  /// slowly than with less; singular poses do not matter, because the velocities are known.
+  /// Of the mobility: the softness in refine() for impulses. Corrections converge more slowly than
+  /// with less; singular poses do not matter, because the velocities are known.
   static constexpr double kShared = 1e-6;
 
-  explicit SaddleLdlt(Redundant redundant = Redundant::kFast) : redundant_(redundant) {}
+  explicit SaddleLdlt(Redundant redundant = Redundant::kVelocities) : redundant_(redundant) {}
   SaddleLdlt(const SaddleLdlt&) = delete;
   SaddleLdlt& operator=(const SaddleLdlt&) = delete;
 
@@ -229,6 +229,7 @@ class SaddleLdlt {
   void soften_all(double share);
   /// Adds corrections to the solution of the softened rows.
   void correct(const System& system);
+  /// Those of articulated and folded joints, from the last solve.
   void find_skipped_impulses(std::span<Block> blocks);
   /// Sets u* to the velocity under the current impulses, and sets up the system for their
   /// correction. @return its largest |w| at zero correction [m/s, rad/s]

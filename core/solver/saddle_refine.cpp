@@ -83,7 +83,7 @@ void SaddleLdlt::refine(const System& system) {
     copy(system.u, u_star_);
     read(system.blocks);
   }
-  soften_all(redundant_ == Redundant::kFast ? kSoftened : kShared);
+  soften_all(redundant_ == Redundant::kVelocities ? kSoftened : kShared);
   solve(system);
   correct(system);
   copy(u_begun_, u_star_);
@@ -97,7 +97,8 @@ void SaddleLdlt::soften_all(double share) {
 
 void SaddleLdlt::correct(const System& system) {
   const std::span<Block> blocks = system.blocks;
-  const bool consistent = redundant_ != Redundant::kFast;  // rows that can be met
+  // For impulses the speeds are those of a solution: corrections may be large.
+  const bool consistent = redundant_ != Redundant::kVelocities;
   find_skipped_impulses(blocks);
   copy(u_star_, u_begun_);
   for (std::size_t k = 0; k < blocks.size(); ++k) {

@@ -15,7 +15,8 @@ class Solver {
  public:
   virtual ~Solver() = default;
   /// Reserves memory for scenes of this size, so that the first contacts do not allocate.
-  virtual void reserve(std::size_t bodies, std::size_t blocks) = 0;
+  /// @param loops joints may form loops
+  virtual void reserve(std::size_t bodies, std::size_t blocks, bool loops) = 0;
   /// Computes velocities and all impulses.
   SolveReport solve(const System& system, const Settings& settings) {
     SolveReport report = find_velocities(system, settings);

@@ -23,7 +23,7 @@ namespace substep {
 /// inertias keep their axes at the start of the sub-step.
 class Xpbd final : public Solver {
  public:
-  void reserve(std::size_t bodies, std::size_t blocks) override;
+  void reserve(std::size_t bodies, std::size_t blocks, bool loops) override;
   SolveReport find_velocities(const System& system, const Settings& settings) override;
 
  private:
@@ -74,7 +74,7 @@ double residual(const Block& block, const Block& moved, RowRange rows, double dt
 
 }  // namespace
 
-void Xpbd::reserve(std::size_t bodies, std::size_t blocks) {
+void Xpbd::reserve(std::size_t bodies, std::size_t blocks, bool /*loops*/) {
   moved_.reserve(blocks);
   motions_.reserve(bodies);
 }

@@ -157,7 +157,7 @@ const Defect kDefects[] = {
      "true"},
     {"", "doctor pendulum --no-runs --memory-budget 9", 2, "--no-runs excludes --memory-budget",
      "true"},
-    {"", "import m.xml --free-root", 2, "only URDF has a root", "true"},
+    {"", "import m.xml --free-root", 2, "only the root link of URDF", "true"},
     {"", "import g.urdf --key home", 2, "only MJCF has keyframes", "true"},
     {"", "merge p.json", 2, "p.json: it is not a folder", "true"},
 };

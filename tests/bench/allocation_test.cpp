@@ -109,6 +109,25 @@ TEST(SmallStepsAndRefinements, AllocateNothingAfterTheFirstFrame) {
   }
 }
 
+/// A square of four hinged bars that lands on one of them after half a second.
+Scene falling_loop() {
+  SceneBuilder builder("falling loop");
+  builder.add_fixed(Plane{}, {0, 0, 0});
+  const Vec3 centre(0.0, 1.8, 0.0);
+  const Vec3 corners[] = {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
+  int bars[4];
+  for (int i = 0; i < 4; ++i) {
+    const bool lies = i % 2 == 0;
+    const Vec3 half = lies ? Vec3(0.4, 0.05, 0.05) : Vec3(0.05, 0.4, 0.05);
+    bars[i] = builder.add_body(Box{half}, 1.0, centre + 0.5 * (corners[i] + corners[(i + 1) % 4]));
+    builder.body(bars[i]).collides = i == 0;
+  }
+  for (int i = 0; i < 4; ++i) {
+    builder.add_hinge(bars[i], bars[(i + 1) % 4], centre + corners[(i + 1) % 4], Vec3::UnitZ());
+  }
+  return *builder.build();
+}
+
 // Bodies that tumble on joints, the closed loop whose redundant rows are refined, and the cone.
 TEST(BodiesInSpaceLoopsAndCones, AllocateNothingAfterTheFirstFrame) {
   for (const char* name : {"spherical_pendulum", "heavy_top", "whirling_chain"}) {
@@ -122,6 +141,8 @@ TEST(BodiesInSpaceLoopsAndCones, AllocateNothingAfterTheFirstFrame) {
     const PaperSettings settings{.mode = Mode::kConst, .integrator = integrator};
     EXPECT_EQ(allocated(scenes::exam_bricard().scene, settings), 0) << name_of(integrator);
   }
+  EXPECT_EQ(allocated(falling_loop(), Settings{}), 0);
+  EXPECT_EQ(allocated(falling_loop(), PaperSettings{}), 0);
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd}) {
     const PaperSettings settings{.solver = solver, .friction_cone = FrictionCone::kCone};
     EXPECT_EQ(allocated("bridge", settings), 0) << name_of(solver);

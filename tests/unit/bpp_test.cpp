@@ -205,7 +205,7 @@ TEST(Bpp, ContinuesAfterMemoryIsReserved) {
     RandomSystem before = problem;
     RandomSystem after = problem;
     solver.solve(before.system(), settings_for(SolverKind::kBpp));
-    solver.reserve(static_cast<std::size_t>(100 * (trial + 1)), 1000);
+    solver.reserve(static_cast<std::size_t>(100 * (trial + 1)), 1000, false);
     solver.solve(after.system(), settings_for(SolverKind::kBpp));
     EXPECT_EQ(impulses(before), impulses(after));
   }

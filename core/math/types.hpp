@@ -33,6 +33,14 @@ inline void copy(std::span<const Vec6> from, std::span<Vec6> to) {
   }
 }
 
+/// Copies the velocities of some bodies.
+inline void copy_of(std::span<const int> bodies, std::span<const Vec6> from, std::span<Vec6> to) {
+  for (const int body : bodies) {
+    const std::size_t i = index(body);
+    copy(from.subspan(i, 1), to.subspan(i, 1));
+  }
+}
+
 /// [x]: the matrix with [x] y = x cross y.
 inline Mat3 skew(const Vec3& x) {
   Mat3 m;

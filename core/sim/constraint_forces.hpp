@@ -28,7 +28,9 @@ struct ContactForce {
 /// Constraint forces of the last sub-step, to the order of the integrator: those at its start,
 /// along the rows at its start; with Newton's forces `end` and with XPBD those at its end. With
 /// drift laws other than `exact`, the part of Euler's force that turns the velocity (centripetal)
-/// is that of the sub-step before, and is missing in the first.
+/// is that of the sub-step before. In the first sub-step of bodies that only joints act on, those
+/// of the direct solvers are the forces at the start to rounding; with closed contacts, limits,
+/// motors or drives they are of first order there, and Euler's lack the centripetal part.
 struct ConstraintForces {
   std::vector<JointForce> joints;  // as in Scene::joints; empty before the first sub-step
   std::vector<ContactForce> contacts;

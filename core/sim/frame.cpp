@@ -263,8 +263,8 @@ void Simulator::Impl::close(FrameReport& report) {
 }
 
 void Simulator::Impl::look(FrameReport& report) {
-  if (measures.errors || measures.energies) rotation_matrices(all.bodies, state, current.R_WB);
-  observe(measures, current.R_WB, contact ? &contact->detector() : nullptr, report);
+  if (measures.errors || measures.energies) rotation_matrices(all.bodies, state, end_axes);
+  observe(measures, end_axes, contact ? &contact->detector() : nullptr, report);
 }
 
 // The gap of a stiff row is mostly error, so its energy follows from the force: C lambda^2 / 2.

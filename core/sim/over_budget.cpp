@@ -96,7 +96,7 @@ void Simulator::Impl::stop_over_budget(Substep& sub, Overrun over, FrameReport& 
   report.status = StepStatus::kOverBudget;
   report.overrun = over;
   drop_rows(sub);  // nothing solves them
-  copy(sub.u_start, state.u);
+  copy_of(sub.part->bodies, sub.u_start, state.u);
 }
 
 }  // namespace substep

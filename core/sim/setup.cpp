@@ -51,6 +51,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   const std::size_t n_blocks = (joints ? scene->joints.size() : 0) +
                                (coordinates ? coordinates->size() : 0) +
                                (contact ? 4 * n + 16 : 0) + 1;
+  end_axes.resize(n);
   blocks.reserve(n_blocks);
   has_loops = joints && joints_form_loops(*scene);
   solver->reserve(n, n_blocks, has_loops);
@@ -130,58 +131,6 @@ void Simulator::set_grab(const std::optional<Grab>& grab) {
   if (impl_->refused.grab.empty()) impl_->grab = grab;
 }
 const std::optional<Grab>& Simulator::grab() const { return impl_->grab; }
-
-namespace {
-
-/// The longer of the last sub-steps of a joint's bodies [s].
-double longest_sub_step(const Block& joint, const State& state) {
-  double dt = 0.0;
-  for (const int body : {joint.a, joint.b}) {
-    if (body >= 0) dt = std::max(dt, state.dt_previous_of(index(body)));
-  }
-  return dt;
-}
-
-}  // namespace
-
-ConstraintForces Simulator::constraint_forces() const {
-  ConstraintForces out;
-  const Settings& by = impl_->settings;
-  const bool acts_at_end = entry_of(by.solver).at_end &&
-                           !(by.solver == SolverKind::kNewton && by.forces != Forces::kEnd);
-  for (const Block& block : impl_->blocks.all()) {
-    double lambda[kMaxRows];
-    find_lambda(impl_->current, block, lambda);
-    if (block.is_contact()) {
-      Vec3 force = lambda[0] * block.n;
-      if (block.rows == 3) force += lambda[1] * block.t1 + lambda[2] * block.t2;
-      out.contacts.push_back({block.body_a, block.body_b, block.r_a, block.n, force, block.phi[0]});
-    } else if (block.is_bounded()) {  // a row of a coordinate, after its joint, if that has rows
-      out.joints.resize(impl_->scene->joints.size());
-      JointForce& force = out.joints[index(CoordinateStage::joint_of(block.id))];
-      if (!force.known) {
-        force.known = true;
-        force.time = impl_->state.time;
-        if (!acts_at_end) force.time -= longest_sub_step(block, impl_->state);
-      }
-      with_joint_rows(block.kind, [&](auto rows) {
-        force.force += rows.force(block, lambda);
-        force.torque += rows.torque(block, lambda);
-      });
-    } else if (block.id < impl_->scene->joints.size()) {  // not the grab
-      out.joints.resize(impl_->scene->joints.size());
-      JointForce& force = out.joints[static_cast<std::size_t>(block.id)];
-      force.known = true;
-      force.time = impl_->state.time;
-      if (!acts_at_end) force.time -= longest_sub_step(block, impl_->state);
-      with_joint_rows(block.kind, [&](auto rows) {
-        force.force = rows.force(block, lambda);
-        force.torque = rows.torque(block, lambda);
-      });
-    }
-  }
-  return out;
-}
 
 Problems Simulator::problems() const { return impl_->refused.all(); }
 

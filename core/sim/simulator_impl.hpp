@@ -2,6 +2,7 @@
 // Implementation of Simulator: the stages required by its scene, and scratch.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -175,6 +176,8 @@ struct Simulator::Impl {
   bool finite(const Substep& sub, FrameReport& report);
   void stop(const Substep& sub, int body, FrameReport& report);  // body with a non-finite number
   void keep_forces(const Substep& sub);
+  /// Of the last sub-step, per block and row [N, N m].
+  [[nodiscard]] std::vector<std::array<double, kMaxRows>> forces_of_blocks() const;
   bool evaluate_stiffness(const Substep& sub, FrameReport& report);
   void remember_stiffness(const Part& part);
   void advance_poses(const Substep& sub, FrameReport& report);
@@ -258,7 +261,8 @@ struct Simulator::Impl {
   StoredForceIndex index_of_part;        // of the current part's forces
   std::int64_t substeps_of_bodies = 0;   // summed over moving bodies
 
-  Substep current;                      // the last one taken
+  Substep current;             // the last one taken
+  std::vector<Mat3> end_axes;  // R_WB after the sub-step, if errors or energies are measured
   std::vector<InverseMass> rigid_mass;  // for impacts, in modes that replace M
   std::vector<Vec6> u_star;             // before the rows act, if solves are repeated
   std::vector<Vec6> w;                  // velocities of the motion, likewise

@@ -79,7 +79,7 @@ bool Simulator::Impl::solve_until_impact(Substep& sub, FrameReport& report) {
     blocks.keep(known);
     sub.rows = blocks.from(first_block);
     for (Block& block : sub.rows) block.curved = 0.0;
-    copy(sub.u_start, state.u);
+    copy_of(sub.part->bodies, sub.u_start, state.u);
     state.dt_previous = dt_before;
     state.own.assign(own_before.begin(), own_before.end());
     state.acceleration.assign(acceleration_before.begin(), acceleration_before.end());

@@ -31,7 +31,7 @@ Substep& Simulator::Impl::begin_substep(bool last_of_share, FrameReport& report)
   current.planned_dt = schedule.clock().planned_dt();
   current.outputs_needed = last_of_share || schedule.clock().left() == 1;
   rotation_matrices(current.part->moving, state, current.R_WB);
-  copy(state.u, current.u_start);
+  copy_of(current.part->bodies, state.u, current.u_start);
   report.n_substeps = std::max(report.n_substeps, schedule.clock().taken() + 1);
   static_cast<Effects&>(report.stages) = scene->effects;
   return current;
@@ -91,7 +91,8 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
   const Part& moved = *sub.part;
   for (const int body : moved.moving) {
     const std::size_t i = index(body);
-    sub.impulse_time[i] = sub.integrator->force_time(state.dt_previous_of(i), sub.dt);
+    sub.dt_before[i] = state.dt_previous_of(i);
+    sub.impulse_time[i] = sub.integrator->force_time(sub.dt_before[i], sub.dt);
   }
   sub.integrator->begin(sub, state);
   copy(state.u, sub.u_before);
@@ -294,7 +295,7 @@ bool Simulator::Impl::finite(const Substep& sub, FrameReport& report) {
 void Simulator::Impl::stop(const Substep& sub, int body, FrameReport& report) {
   report.status = StepStatus::kNotFinite;
   report.failed_body = body;
-  copy(sub.u_start, state.u);
+  copy_of(sub.part->bodies, sub.u_start, state.u);
 }
 
 void Simulator::Impl::keep_forces(const Substep& sub) {

@@ -65,9 +65,10 @@ double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, cons
   return dt_t * largest_mobility(joint, first, end, inverse_mass) / joint.C[first];
 }
 
-void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row, double impulse) {
+void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row, double impulse,
+                double speed) {
   joint.given[row] = impulse;
-  joint.bias[row] = 0.0;
+  joint.bias[row] = -speed;
   joint.softness[row] = kGivenForce * mobility_of(joint, row, inverse_mass);
 }
 
@@ -136,7 +137,7 @@ void set_joint_springs(const Substep& sub, const State& state, Block& joint) {
     for (int row = first; row < end; ++row) {
       const double elastic = joint.elastic[row];
       if (w.ahead == 0.0) {
-        give_force(sub.inverse_mass, joint, row, -force_time * elastic / C);
+        give_force(sub.inverse_mass, joint, row, -force_time * elastic / C, speed[row]);
         continue;
       }
       const double behind = w.behind * dt_previous * speed[row];

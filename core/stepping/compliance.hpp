@@ -43,10 +43,12 @@ struct SpringWeights {
   double behind = 0.0;
 };
 
-/// Prescribes the impulse of a row, Block::given; the solve adds nothing to it. Expressed by
-/// softness and bias alone, it would be a small difference of large numbers. @param impulse [N s, N
-/// m s]
-void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row, double impulse);
+/// Prescribes the impulse of a row, Block::given; the solve adds 1e-12 of what would keep the row
+/// at `speed`. Relative to a speed of zero, this would damp the motion in each sub-step. Expressed
+/// by softness and bias alone, the impulse would be a small difference of large numbers.
+/// @param impulse [N s, N m s]  @param speed J u that is expected after the sub-step [m/s, rad/s]
+void give_force(std::span<const InverseMass> inverse_mass, Block& joint, int row, double impulse,
+                double speed = 0.0);
 
 /// kappa of rows with a common compliance, in the direction of the largest mobility; 0 if nothing
 /// moves. @param dt_t dt t [s^2]

@@ -38,30 +38,29 @@ Trial trial_at(const Substep& sub, const State& start, const JointStage* joints,
   inverse_mass(sub.inertia_inverse, *sub.part, trial.sub.R_WB, trial.sub.inverse_mass);
   if (joints) joints->append(*sub.part, trial.state, trial.sub.R_WB, trial.blocks);
   trial.sub.rows = trial.blocks.all();
-  set_acceleration_rows(trial.sub.rows, trial.state.u, trial.sub.inverse_mass, sub.dt,
-                        sub.scene->regularisation);
   return trial;
 }
 
 /// Accelerations by gyroscopic torques alone.
-std::vector<Vec6> gyroscopic_accelerations(const Substep& sub, const State& state) {
-  std::vector<Vec6> a(state.u.size(), Vec6::Zero());
+std::vector<Vec6> gyroscopic_accelerations(const Substep& sub, std::span<const Vec6> u) {
+  std::vector<Vec6> a(u.size(), Vec6::Zero());
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     if (!tumbles(sub, i)) continue;
     const Vec3& I = sub.scene->bodies[i].inertia;
-    const Vec3 omega_B = sub.R_WB[i].transpose() * state.u[i].tail<3>();
+    const Vec3 omega_B = sub.R_WB[i].transpose() * u[i].tail<3>();
     a[i].tail<3>() = sub.R_WB[i] * gyroscopic_torque(I, omega_B).cwiseQuotient(I);
   }
   return a;
 }
 
-/// Solves J a = -phi''.
-Accelerations accelerations_at(const Trial& trial, Solver& linear) {
-  const Substep& sub = trial.sub;
+}  // namespace
+
+Accelerations accelerations(const Substep& sub, std::span<const Vec6> u, Solver& linear) {
   const Scene& scene = *sub.scene;
-  const std::size_t n = trial.state.u.size();
-  const std::vector<Vec6> free = gyroscopic_accelerations(sub, trial.state);
+  const std::size_t n = u.size();
+  set_acceleration_rows(sub.rows, u, sub.inverse_mass, sub.dt, scene.regularisation);
+  const std::vector<Vec6> free = gyroscopic_accelerations(sub, u);
   Accelerations out{free, std::vector<Vec3>(n, Vec3::Zero()), {}};
   apply_forces(sub, std::vector<double>(n, 1.0), out.a);
   for (const Block& block : sub.rows) apply_impulse(block, block.given, sub.inverse_mass, out.a);
@@ -79,8 +78,6 @@ Accelerations accelerations_at(const Trial& trial, Solver& linear) {
   }
   return out;
 }
-
-}  // namespace
 
 bool needs_first_changes(const Substep& sub, const State& state) {
   if (sub.probing) return false;
@@ -100,7 +97,8 @@ FirstAccelerations first_accelerations(const Substep& sub, const State& state,
   const double dt = sub.dt;
   std::vector<Vec6> rate(state.u.size(), Vec6::Zero());
   const auto at = [&](double s, std::span<const Vec6> a) {
-    return accelerations_at(trial_at(sub, state, joints, s, a, rate), linear);
+    const Trial trial = trial_at(sub, state, joints, s, a, rate);
+    return accelerations(trial.sub, trial.state.u, linear);
   };
   FirstAccelerations first;
   first.at_start = at(0.0, rate);

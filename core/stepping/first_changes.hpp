@@ -25,6 +25,10 @@ struct FirstAccelerations {
   Accelerations after;  // at dt
 };
 
+/// Solves J a = -phi'' for the forces at the poses. @param sub with R_WB, inverse_mass and the rows
+/// of joints, whose impulses are set  @param u velocities at these poses, per body [m/s, rad/s]
+Accelerations accelerations(const Substep& sub, std::span<const Vec6> u, Solver& linear);
+
 /// True before the first sub-step of a part on which only joints act: no contact is closed, no body
 /// is grabbed.
 bool needs_first_changes(const Substep& sub, const State& state);

@@ -42,7 +42,8 @@ Substep::Substep(const Scene& of)
       });
   const std::size_t n = of.bodies.size();
   R_WB.resize(n);
-  u_start.resize(n);
+  u_start.resize(n, Vec6::Zero());
+  dt_before.resize(n);
   if (of.effects.joints && (of.effects.drives || of.effects.springs)) drives_on.resize(n);
   if (of.effects.joints && of.effects.armature) u_unstruck.resize(n);
   impulse_time.resize(n);

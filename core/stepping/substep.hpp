@@ -47,10 +47,11 @@ struct Substep {
   bool outputs_needed = true;  // velocities at the time of the poses, forces
 
   // Set by its parts.
-  std::vector<Mat3> R_WB;     // at its start, static bodies included
-  std::vector<Vec6> u_start;  // at its start [m/s, rad/s]
-  std::span<Block> rows;      // phi, J; later bias, softness, impulse
-  std::size_t solved = 0;     // blocks that an earlier solve of this sub-step left with impulses
+  std::vector<Mat3> R_WB;         // at its start, static bodies included
+  std::vector<Vec6> u_start;      // at its start [m/s, rad/s]
+  std::vector<double> dt_before;  // length of the last sub-step; 0 before the first [s]
+  std::span<Block> rows;          // phi, J; later bias, softness, impulse
+  std::size_t solved = 0;  // blocks that an earlier solve of this sub-step left with impulses
   SolveLimits limits;
   std::vector<MotorsOnBody> drives_on;    // forces and torques of drives; empty without any
   std::vector<double> impulse_time;       // duration of applied forces [s]

@@ -258,8 +258,7 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
     }
   }
   // Joints that hold at the end of the sub-step need no correction: exact ones, and Störmer's.
-  const bool aimed =
-      drift_law(s) == Drift::kExact || (follows_accelerations(s) && drift_law(s) == Drift::kFull);
+  const bool aimed = drift_law(s) == Drift::kExact || aims_at_poses(s);
   if (effects.joints && !aimed) {
     bool second = s.drift_order == 2;
     checkbox(look, "Correct for curvature", second,

@@ -70,7 +70,7 @@ constexpr std::array kFields{
     SettingField{
         "drift",
         "law of the drift correction; auto is soft with pgs and full with the others; exact "
-        "closes joints at the end of every sub-step: bpp with euler or leapfrog, else full",
+        "closes joints at the end of every sub-step with bpp, else as auto",
         ChoiceSetting<Drift>{&S::drift}},
     SettingField{"tau", "time constant of the soft drift law",
                  NumberSetting{&S::drift_tau, {1e-6, 10.0, false, false, "s"}}},

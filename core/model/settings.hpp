@@ -101,16 +101,16 @@ inline bool follows_accelerations(const Settings& s) {
 }
 
 /// The drift law, with kAuto resolved by solver. Only the direct solver closes joints exactly;
-/// Störmer's method aims at their end poses itself. Otherwise exact is auto.
+/// otherwise exact is auto.
 inline Drift drift_law(const Settings& s) {
-  const bool closes = s.solver == SolverKind::kBpp && !follows_accelerations(s);
+  const bool closes = s.solver == SolverKind::kBpp;
   if (s.drift != Drift::kAuto && (s.drift != Drift::kExact || closes)) return s.drift;
   return entry_of(s.solver).soft_drift ? Drift::kSoft : Drift::kFull;
 }
 
 /// True if Störmer's method sets up rows for the poses at the end of the sub-step.
 inline bool aims_at_poses(const Settings& s) {
-  return follows_accelerations(s) && drift_law(s) == Drift::kFull;
+  return follows_accelerations(s) && drift_law(s) != Drift::kSoft;
 }
 
 /// True if the solver or the mode of these settings reads the given setting.

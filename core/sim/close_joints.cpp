@@ -37,6 +37,10 @@ double largest_gap(const Block& block, const double* gaps) {
 
 }  // namespace
 
+bool Simulator::Impl::closes_joints(const Substep& sub) const {
+  return drift_law(sub.settings) == Drift::kExact && joints && sub.integrator->knows_motion(sub);
+}
+
 // Bodies that turn together at omega move along chords: along the rows at the start of the sub-step
 // they approach each other by dt/2 omega^2 times their distance, and a rigid contact row forbids
 // it. Joints closed on the curved motion require it. In a loop of both, the contact's impulse would
@@ -56,7 +60,8 @@ void Simulator::Impl::let_contacts_turn(const System& system) {
 
 // SHAKE (Ryckaert, Ciccotti and Berendsen 1977): impulses along the rows at the start of the
 // sub-step, such that joints hold at its end,
-//   phi(q + dt u+) = 0,   u+ = u* + Mt^-1 J^T impulse.
+//   phi(q + dt w) = 0,   u+ = u* + Mt^-1 J^T impulse,
+// where w is u+, or for Störmer's method a linear function of it.
 // One linear solve leaves the gap dt^2/2 phi'' in the poses; its correction in the next sub-step
 // stays in the velocity, as that of a sub-step of another length if N changes. With leapfrog these
 // poses are those of RATTLE (Andersen 1983) for any sequence of lengths, because the projection of
@@ -106,8 +111,9 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
     for (std::size_t i = 0; i < corrected.size(); ++i) {
       Block& block = system.blocks[i];
       if (!closes(block)) continue;
+      const double moved = sub.dt * sub.integrator->motion_gain(sub, state, block);
       for (int row = 0; row < block.rows; ++row) {
-        block.bias[row] += sign * corrected[i].of[row] / sub.dt;
+        block.bias[row] += sign * corrected[i].of[row] / moved;
       }
     }
     if (lets_turn) let_contacts_turn(system);

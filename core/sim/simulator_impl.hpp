@@ -105,6 +105,7 @@ struct Simulator::Impl {
   void sum_drives(Substep& sub);
   bool solve_rows(Substep& sub, FrameReport& report);
   void set_softness(const Substep& sub, std::span<Block> rows) const;
+  bool closes_joints(const Substep& sub) const;  // close_joints.cpp
   /// Repeats a solve until joints hold at the end. @param system its u* is u_star, by: its solver
   void close_joints(const Substep& sub, const System& system, Solver& by,
                     SolveReport& solved);  // close_joints.cpp

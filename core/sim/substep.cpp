@@ -160,7 +160,7 @@ bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
   system.u_sliding = is_struck ? sub.u_before : sub.integrator->velocities_at_start(sub);
   sub.integrator->extend(system, sub, state);
   system.frame_share = sub.dt / scene->frame;
-  const bool closes = drift_law(sub.settings) == Drift::kExact && joints && !sub.probing;
+  const bool closes = !sub.probing && closes_joints(sub);
   joints_open = false;
   if (closes) copy(state.u, u_star);
   SolveReport solved = solver->find_velocities(system, sub.settings);

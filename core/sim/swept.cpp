@@ -256,9 +256,7 @@ bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
     count_work(sub, solved, report);
     solved = by.find_velocities(system, sub.settings);
   }
-  if (drift_law(sub.settings) == Drift::kExact && joints) {
-    close_joints(sub, system, by, solved);
-  }
+  if (closes_joints(sub)) close_joints(sub, system, by, solved);
   if (solved.status == SolveStatus::kOverLimits) {
     refuse_solve(sub, solved, report);
     return false;

@@ -18,9 +18,11 @@ constexpr double kMaxPredictedTurn = 0.2;
 bool is_zero(const Vec3& v) { return v.isZero(0.0); }
 
 // True unless a body rotates about a principal axis, as in planar motion, but for rounding or a
-// disturbance of that size.
-bool leaves_axis(const Vec3& I, const Vec3& omega_B) {
+// disturbance of that size. A body that does not rotate has no axis, only the rounding of one.
+bool leaves_axis(const Vec3& I, const Vec3& omega_B, double dt) {
+  constexpr double kTurn = 1e-9;   // in the sub-step, whose square is below rounding [rad]
   constexpr double kAngle = 1e-6;  // from the axis [rad]
+  if (!(dt * omega_B.norm() > kTurn)) return false;
   const double most = kAngle * omega_B.norm() * I.cwiseProduct(omega_B).norm();
   return gyroscopic_torque(I, omega_B).norm() > most;
 }
@@ -58,7 +60,7 @@ bool any_leaves_axis(const Substep& sub, const State& state) {
     const std::size_t i = index(body);
     if (!tumbles(sub, i)) return false;
     const Vec3 omega_B = sub.R_WB[i].transpose() * state.u[i].tail<3>();
-    return leaves_axis(sub.scene->bodies[i].inertia, omega_B);
+    return leaves_axis(sub.scene->bodies[i].inertia, omega_B, sub.dt);
   });
 }
 
@@ -116,7 +118,7 @@ void GyroscopicStage::predict(const Substep& sub, std::size_t i, bool damps, Sta
   spin.omega = spin.before = state.u[i].tail<3>();
   if (!is_zero(gyroscopic_torque(I, omega_B)) || loops_bend_) {
     spin.out_of_axis = true;
-    spin.bends = loops_bend_ || leaves_axis(I, omega_B);
+    spin.bends = loops_bend_ || leaves_axis(I, omega_B, sub.dt);
     spin.damped = damps || sub.dt * state.u[i].tail<3>().norm() > kMaxPredictedTurn ||
                   changes_mass_of(i, *sub.scene, sub.settings, state, sub.dt);
     spin.momentum = momentum_after(I, omega_B, state.dt_previous_of(i));
@@ -158,7 +160,7 @@ Vec3 GyroscopicStage::strike(const Substep& sub, std::size_t i, const Vec3& spin
   spin.struck = I.cwiseProduct(spin_B) - spin.momentum;
   if (is_zero(spin.struck)) return spin.before;
   spin.out_of_axis = true;
-  spin.bends = leaves_axis(I, spin_B);
+  spin.bends = leaves_axis(I, spin_B, sub.dt);
   aim(sub, i, spin_B);
   return spin.before;
 }

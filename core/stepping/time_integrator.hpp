@@ -56,6 +56,13 @@ class TimeIntegrator {
   /// @param w out, per moving body [m/s, rad/s]
   virtual void predict_velocities(const Substep& sub, const State& state,
                                   std::span<Vec6> w) const = 0;
+  /// The change of these velocities by a change of state.u along a row, relative to that change.
+  [[nodiscard]] virtual double motion_gain(const Substep& /*sub*/, const State& /*state*/,
+                                           const Block& /*block*/) const {
+    return 1.0;
+  }
+  /// False if poses may move otherwise, so that joints cannot be closed on that motion.
+  [[nodiscard]] virtual bool knows_motion(const Substep& /*sub*/) const { return true; }
   /// Completes the velocities after the solve.
   virtual void settle(Substep& sub, State& state) = 0;
   /// Adds rates to a force that is stored for the next sub-step.

@@ -165,7 +165,8 @@ struct Simulator::Impl {
   [[nodiscard]] double stiff_elastic() const;
   /// The potential energy that the shift adds [J].
   [[nodiscard]] double lift_by_shift(const Substep& sub) const;
-  bool parts(const Block& block) const;  // true if an overlap is parted
+  bool parts(const Block& block) const;    // true if an overlap is parted
+  bool is_deep(const Block& block) const;  // an overlap by more than bodies sink
   double parting_speed(const Substep& sub, const Block& row) const;
   double fastest_shift(const Substep& sub) const;
   /// True if a contact stops an approach that the forces of the sub-step do not explain: a body

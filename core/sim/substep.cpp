@@ -189,7 +189,10 @@ void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
     return drive_motors(sub, sub.u_start);
   }
   set_drift_bias(sub.rows, drift_law(sub.settings), sub.settings.drift_tau, sub.dt, sub.planned_dt);
-  if (sweeps_motion(sub)) set_swept_bias(sub.rows, sub.gain, sub.shift, sub.dt, sub.planned_dt);
+  if (sweeps_motion(sub)) {
+    set_swept_bias(sub.rows, sub.gain, sub.shift, sub.dt, sub.planned_dt,
+                   [this](const Block& block) { return is_deep(block); });
+  }
   set_springs(sub, state);
   if (sub.settings.drift_order == 2) add_curvature_bias(sub.rows, sub.u_start, sub.dt);
   if (restitution && separates) restitution->apply(sub, sub.u_before, sub.rows);

@@ -194,6 +194,11 @@ bool Simulator::Impl::parts(const Block& block) const {
   return block.is_unilateral() && !block.soft && block.phi[0] < -touching(block);
 }
 
+bool Simulator::Impl::is_deep(const Block& block) const {
+  constexpr double kSinks = 0.01;  // at most, of the half width
+  return block.phi[0] < -kSinks * width_of(block);
+}
+
 /// At which the shift parts an overlap [m/s] or closes a limit [rad/s or m/s].
 double Simulator::Impl::parting_speed(const Substep& sub, const Block& row) const {
   if (!row.is_unilateral() || row.soft || !(row.phi[0] < 0.0)) return 0.0;

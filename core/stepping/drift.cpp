@@ -140,7 +140,8 @@ double speed_by_forces(const Substep& sub, const Block& row) {
 }
 
 void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
-                    std::span<const Vec6> shift, double dt, double planned_dt) {
+                    std::span<const Vec6> shift, double dt, double planned_dt,
+                    const std::function<bool(const Block&)>& is_deep) {
   constexpr double kYields = 0.1;  // at most this part of the speed by the forces
   constexpr double kRigid = 1e-4;  // but the softness not below this part of what it was
   constexpr double kKept = 0.5;  // of the force: less than all, so that forces in a jam are bounded
@@ -158,9 +159,12 @@ void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
     if (!(block.impulse[0] > 0.0)) continue;  // it has just been struck
     const double yields = block.softness[0] * block.impulse[0];
     const double share = std::clamp(kYields * speeds_of(block, gain) / yields, kRigid, 1.0);
-    // Bodies sink until their overlap keeps the rest of the force; it never pushes them out.
+    // Bodies sink until their overlap keeps the rest of the force; it never pushes them out. In a
+    // deep overlap, which joints hold, the force would grow in each sub-step by what they leave of
+    // the approach, without a bound.
     const double yielding = share * yields;
-    const double by_overlap = kStops * std::max(-block.phi[0], 0.0) / planned_dt;
+    const double by_overlap =
+        is_deep(block) ? 0.0 : kStops * std::max(-block.phi[0], 0.0) / planned_dt;
     const double kept = std::min(kKept + by_overlap / yielding, 1.0);
     for (int row = 0; row < block.rows; ++row) {
       block.softness[row] *= share;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "core/constraints/block.hpp"
@@ -59,9 +60,10 @@ double speed_by_forces(const Substep& sub, const Block& row);
 /// shortens.
 /// @param gain per body: velocity by the forces of the sub-step [m/s, rad/s]  @param shift of the
 /// motion, Substep::shift
-/// @param dt, planned_dt as above [s]
+/// @param dt, planned_dt as above [s]  @param is_deep whether an overlap is more than bodies sink
 void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain,
-                    std::span<const Vec6> shift, double dt, double planned_dt);
+                    std::span<const Vec6> shift, double dt, double planned_dt,
+                    const std::function<bool(const Block&)>& is_deep);
 
 /// For the probe: no drift correction; open contacts stay open. @param dt [s]
 void set_probe_bias(std::span<Block> blocks, double dt);

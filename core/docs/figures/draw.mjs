@@ -394,7 +394,7 @@ function tried() {
   }
   table("Tried", ["joints and steps", "alpha", "`crank_rocker`, 20 s [J]", "steps", "`thrown_rope`, 5 s [J]", "steps"], rows);
 
-  table("Laws", ["instead of `drift: exact`", "`crank_rocker` [J]", "`thrown_rope` [J]"], ["--drift soft", "--drift full --drift-order 2",
+  table("Laws", ["instead of `drift: exact` and leapfrog", "`crank_rocker` [J]", "`thrown_rope` [J]"], ["--drift soft", "--drift full --drift-order 2",
     "--integrator stormer", "--solver newton --forces mean"].map((flags) =>
     [`\`${flags}\``, ...["crank_rocker", "thrown_rope"].map((scene) => range(run(scene, `--preset steady ${flags}`)))]));
 

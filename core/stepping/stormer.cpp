@@ -73,7 +73,9 @@ class Stormer : public Leapfrog {
   std::vector<Vec6> u_free_;   // before the rows act
   std::vector<Vec6> u_guess_;  // u^
   std::vector<Vec6> w_;
-  // Of tumbling bodies, predicted for the middle of the sub-step.
+  // Of tumbling bodies, predicted for the middle of the sub-step. Not used beside contacts and
+  // limits, whose impacts are solved with the inverse mass at the start, nor if a mode replaces it.
+  bool solves_in_middle_ = false;
   std::vector<Mat3> half_turn_;  // from the start
   std::vector<InverseMass> middle_mass_;
   struct Changes {  // per body, over dt; of the torque for tumbling bodies
@@ -159,11 +161,6 @@ Vec3 torque_of(const Substep& sub, const State& state, std::size_t body) {
          (momentum_of(sub, body, state.u[body]) - momentum_of(sub, body, sub.u_before[body]));
 }
 
-/// True if the rows are solved with the inverse mass in the middle of the sub-step.
-bool turns_mass(const Substep& sub, std::size_t body) {
-  return aims_at_poses(sub.settings) && tumbles(sub, body) && !changes_mass(sub.settings.mode);
-}
-
 // Of the angular velocities that an impulse at the start of the sub-step adds during it; after
 // turn_velocity().
 double mean_time(const Substep& sub, const State& state, std::size_t body) {
@@ -233,11 +230,13 @@ std::int64_t Stormer::aim(const Substep& sub, State& state) {
     if (gives_forces(sub, block)) apply_impulse(block, block.given, sub.inverse_mass, state.u);
   }
   u_free_.assign(state.u.begin(), state.u.end());
+  solves_in_middle_ =
+      aims_at_poses(sub.settings) && knows_motion(sub) && !changes_mass(sub.settings.mode);
   return aims_at_poses(sub.settings) ? aim_at_poses(sub, state) : aim_rolling(sub, motions_);
 }
 
 void Stormer::extend(System& system, const Substep& sub, const State& /*state*/) {
-  if (aims_at_poses(sub.settings)) system.inverse_mass = middle_mass_;
+  if (solves_in_middle_) system.inverse_mass = middle_mass_;
 }
 
 // Joints must hold at the end poses, and contacts that stick must not slide on the way; rows are
@@ -259,7 +258,7 @@ std::int64_t Stormer::aim_at_poses(const Substep& sub, State& state) {
       u_guess_[i].tail<3>() = velocity_of(sub, i, l);
       w_guess.tail<3>() = turn_velocity(sub, state, i, l, torque);
     }
-    if (turns_mass(sub, i)) {
+    if (solves_in_middle_ && tumbles(sub, i)) {
       const Vec3 l = momentum_of(sub, i, u_guess_[i]);
       const Mat3& T = half_turn_[i] = motion(w_guess, mean_time(sub, state, i)).R;
       middle_mass_[i].angular = T * sub.inverse_mass[i].angular * T.transpose();
@@ -332,7 +331,7 @@ void Stormer::forget(std::size_t body, State& state) const {
 
 // What rows changed, with the inverse mass at the start instead of that of the solve.
 Vec6 Stormer::velocity_at_start(const Substep& sub, std::size_t body, const Vec6& u) const {
-  if (!turns_mass(sub, body)) return u;
+  if (!solves_in_middle_ || !tumbles(sub, body)) return u;
   const Mat3& T = half_turn_[body];
   Vec6 out = u;
   Vec6 gained = Vec6::Zero();

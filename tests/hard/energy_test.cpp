@@ -508,8 +508,8 @@ TEST(RandomEnergy, OfHeapsNeverRises) {
   EXPECT_LE(faults("heap", heap, 4.0, std::nullopt), allowed());
 }
 
-// Joints hold these in their overlaps, which is what the verdict says. In few other heaps the energy
-// still explodes (core/docs/contacts.md).
+// Joints hold these in their overlaps, which is what the verdict says. In few other heaps the
+// energy still explodes (core/docs/contacts.md).
 TEST(RandomEnergy, OfLimbsThatOverlapNextToAJointNeverRises) {
   for (const int seed : {3, 15, 21}) {
     const std::string text = fault(random_heap(seed, true), 2.5, std::nullopt);

@@ -1,8 +1,9 @@
 // Mutation tests: each mutant of mutants.json changes one place of a copy of the sources, and a test
 // must fail there that passes without the change.
-//   node tests/mutants/mutants.mjs [--search] [NAME...]
+//   node tests/mutants/mutants.mjs [--check | --search] [NAME...]
 // level: `core`, the default, is found by `./dev test`, `all` by `./dev test all`; `web`: needs the
 // built page. `test` names the test that fails. --search looks for it among all tests of the level.
+// --check only compares the mutants with the sources: each text to change must be there once.
 import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { availableParallelism, cpus } from "node:os";
@@ -66,7 +67,7 @@ function runTests(mutant, test) {
 
 const args = process.argv.slice(2);
 const search = args.includes("--search");
-const names = args.filter((arg) => arg !== "--search");
+const names = args.filter((arg) => arg !== "--search" && arg !== "--check");
 const known = JSON.parse(readFileSync(new URL("mutants.json", import.meta.url), "utf8"));
 for (const name of names) {
   if (known.some((mutant) => mutant.name === name)) continue;
@@ -74,6 +75,12 @@ for (const name of names) {
   process.exit(2);
 }
 const mutants = known.filter(({ name }) => names.length === 0 || names.includes(name));
+
+const misplaced = mutants.filter(({ file, from }) =>
+  readFileSync(path.join(root, file), "utf8").split(from).length !== 2);
+for (const { name, file, from } of misplaced) console.log(`${name}: "${from}" is not exactly once in ${file}`);
+if (misplaced.length > 0) process.exit(1);
+if (args.includes("--check")) process.exit(0);
 
 refresh();
 const configure = (preset, options) => must(`configuring ${preset}`,
@@ -98,11 +105,6 @@ for (const mutant of search ? [] : mutants) { // a test that fails anyway finds 
 for (const mutant of missed > 0 ? [] : mutants) {
   const file = path.join(copy, mutant.file);
   const text = readFileSync(file, "utf8");
-  if (text.split(mutant.from).length !== 2) {
-    console.log(`${mutant.name}: "${mutant.from}" is not exactly once in ${mutant.file}`);
-    missed += 1;
-    continue;
-  }
   writeFileSync(file, text.replace(mutant.from, () => mutant.to));
   try {
     const wrong = build(mutant);

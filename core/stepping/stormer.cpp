@@ -235,7 +235,7 @@ std::int64_t Stormer::aim(const Substep& sub, State& state) {
   return aims_at_poses(sub.settings) ? aim_at_poses(sub, state) : aim_rolling(sub, motions_);
 }
 
-void Stormer::extend(System& system, const Substep& sub, const State& /*state*/) {
+void Stormer::extend(System& system, const Substep& /*sub*/, const State& /*state*/) {
   if (solves_in_middle_) system.inverse_mass = middle_mass_;
 }
 

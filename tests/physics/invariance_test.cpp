@@ -378,7 +378,8 @@ TEST(Invariance, APlanarMechanismMovesAlikeInEveryPlane) {
 }
 
 // Of moments 1 : 70. A small torque across the thin axis tilts the rod far: with inverse masses at
-// the start of the sub-step, Störmer's method left the plane by millimetres within these runs.
+// the start of the sub-step, Störmer's method left the plane within these runs. With drift full it
+// still does with two sub-steps (integrators.md).
 TEST(Invariance, AThinRodOnAHingeStaysInItsPlane) {
   const Quat R(Eigen::AngleAxisd(1.3, Vec3(0.3, -0.5, 0.8).normalized()));
   constexpr double kSpin = 5.0;
@@ -398,9 +399,9 @@ TEST(Invariance, AThinRodOnAHingeStaysInItsPlane) {
   methods.push_back({"Störmer, exact", closing});
   for (NamedSettings& method : methods) {
     method.settings.mode = Mode::kConst;
-    method.settings.n = method.name == "Störmer" ? 2 : 1;
+    method.settings.n = method.name == "Störmer" ? 3 : 1;
     double out = 0.0;
-    run(scene, method.settings, 2.0, [&](const Simulator& simulator, const FrameReport&) {
+    run(scene, method.settings, 4.0, [&](const Simulator& simulator, const FrameReport&) {
       out = std::max(out, std::abs((R.conjugate() * simulator.state().x[0]).z()));
     });
     EXPECT_LT(out, 1e-10) << method.name;

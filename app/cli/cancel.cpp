@@ -1,5 +1,6 @@
 #include "app/cli/cancel.hpp"
 
+#include <poll.h>
 #include <semaphore.h>
 #include <unistd.h>
 
@@ -7,10 +8,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <mutex>
-#include <string_view>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
@@ -28,7 +27,7 @@ std::atomic<bool> g_cancelled{false};
 std::atomic<int> g_signal{0};  // the first
 std::atomic<int> g_signals{0};
 std::timed_mutex g_saying;  // held while the message is printed
-bool g_said = false;
+std::atomic<bool> g_said{false};
 sem_t g_signalled;
 
 extern "C" void note_cancel(int signal) {
@@ -36,8 +35,20 @@ extern "C" void note_cancel(int signal) {
   int none = 0;
   g_signal.compare_exchange_strong(none, signal);
   g_cancelled = true;
-  if (++g_signals >= kMostSignals) ::_exit(128 + g_signal);
+  if (++g_signals == kMostSignals) ::alarm(1);
   sem_post(&g_signalled);
+}
+
+void write_cancelled() {
+  static constexpr char kText[] = "cancelled\n";
+  [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, kText, sizeof kText - 1);
+}
+
+extern "C" void end_at_once(int /*signal*/) {
+  remove_temporaries();
+  pollfd error{STDERR_FILENO, POLLOUT, 0};
+  if (!g_said && ::poll(&error, 1, 0) == 1) write_cancelled();
+  ::_exit(cancelled_code());
 }
 
 /// Ends the program if the command has not done so: a single frame may take minutes.
@@ -50,10 +61,7 @@ void end_when_signalled() {
   }
   end_outputs(true);
   const std::unique_lock lock(g_saying, kBlocked);
-  if (lock.owns_lock() && !g_said) {
-    constexpr std::string_view kText = "cancelled\n";
-    [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, kText.data(), kText.size());
-  }
+  if (lock.owns_lock() && !g_said.exchange(true)) write_cancelled();
   std::_Exit(cancelled_code());
 }
 
@@ -75,6 +83,13 @@ bool watch() {
     // No thread available: commands that check the flag still end.
   }
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal);
+  struct sigaction action {};
+  action.sa_handler = end_at_once;
+  ::sigaction(SIGALRM, &action, nullptr);
+  sigset_t alarm;
+  sigemptyset(&alarm);
+  sigaddset(&alarm, SIGALRM);
+  ::pthread_sigmask(SIG_UNBLOCK, &alarm, nullptr);
   return true;
 }
 
@@ -92,7 +107,7 @@ int cancelled_code() {
 
 void say_cancelled(const std::string& what) {
   const std::lock_guard lock(g_saying);
-  if (!std::exchange(g_said, true)) complain("cancelled%s", what.c_str());
+  if (!g_said.exchange(true)) complain("cancelled%s", what.c_str());
 }
 
 }  // namespace substep::cli

@@ -1,10 +1,12 @@
 #include "app/cli/output.hpp"
 
 #include <fcntl.h>
+#include <limits.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -43,6 +45,26 @@ bool same(const struct stat& a, const struct stat& b) {
 std::mutex g_commit;
 std::mutex g_outputs;       // of the list, and of creating temporary files
 Output* g_first = nullptr;  // open outputs
+
+/// A name of a temporary file that a signal handler can read.
+struct Temporary {
+  enum State : int { kFree, kBeingSet, kThere };
+  std::atomic<int> state{kFree};
+  char name[PATH_MAX] = {};
+};
+std::array<Temporary, 64> g_temporaries;  // more than any command has
+
+void remember_temporary(const std::string& name) {
+  if (name.size() >= PATH_MAX) return;
+  for (Temporary& at : g_temporaries) {
+    int free = Temporary::kFree;
+    if (!at.state.compare_exchange_strong(free, Temporary::kBeingSet)) continue;
+    name.copy(at.name, name.size());
+    at.name[name.size()] = '\0';
+    at.state = Temporary::kThere;
+    return;
+  }
+}
 
 std::mutex g_mutex_of_inputs;
 // By device and number: whether an output that is opened in place may replace the file.
@@ -151,6 +173,7 @@ bool Output::open_beside() {
     why = descriptor < 0 ? errno : 0;
     if (descriptor < 0) continue;
     temporary_.swap(name);
+    remember_temporary(temporary_);
     next_ = std::exchange(g_first, this);
     if (old) ::fchmod(descriptor, old->st_mode & 07777U);
     file_ = ::fdopen(descriptor, "wb");
@@ -209,7 +232,7 @@ void Output::finish() {
   if (std::fclose(std::exchange(file_, nullptr)) != 0 && !failed()) error_ = errno;
   if (!failed() && !temporary_.empty()) {
     if (std::rename(temporary_.c_str(), target_.c_str()) == 0) {
-      temporary_.clear();
+      forget_temporary();
     } else {
       error_ = errno;
     }
@@ -227,6 +250,13 @@ void Output::discard() {
   if (file_ && file_ != stdout) std::fclose(file_);
   file_ = nullptr;
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  forget_temporary();
+}
+
+void Output::forget_temporary() {
+  for (Temporary& at : g_temporaries) {
+    if (at.state == Temporary::kThere && temporary_ == at.name) at.state = Temporary::kFree;
+  }
   temporary_.clear();
 }
 
@@ -261,6 +291,12 @@ void end_outputs(bool keep) {
   if (::ftrylockfile(stdout) != 0) return;
   std::fflush(stdout);
   ::funlockfile(stdout);
+}
+
+void remove_temporaries() {
+  for (const Temporary& at : g_temporaries) {
+    if (at.state == Temporary::kThere) ::unlink(at.name);
+  }
 }
 
 bool write_file(const std::string& path, const std::string& text, bool in_place) {

@@ -49,6 +49,7 @@ class Output {
   void finish();
   void discard();
   void end(bool keep);
+  void forget_temporary();
   [[nodiscard]] std::unique_lock<std::mutex> commit_if_beside() const;
 
   std::string path_;        // as given
@@ -70,6 +71,10 @@ std::unique_lock<std::mutex> commit();
 /// progress, and no other begins afterwards. Keeps the files with keep_if_ended() if `keep`, and
 /// removes the others. A write that is blocked by a pipe is left after 20 ms. Does not allocate.
 void end_outputs(bool keep);
+
+/// Removes the temporary files of all open outputs, before the program exits at once. Only for
+/// signal handlers: it does not lock or allocate.
+void remove_temporaries();
 
 /// Writes a whole file by means of Output.
 bool write_file(const std::string& path, const std::string& text, bool in_place = false);

@@ -253,6 +253,34 @@ TEST(Signals, AnOutputThatIsBeingCommittedIsCompleted) {
   }
 }
 
+TEST(Signals, ManyInQuickSuccessionLeaveNoTemporaryFile) {
+  for (const int fsync_ms : {0, 300, 5000}) {
+    for (const int signals : {3, 5, 40}) {
+      const fs::path at = empty_folder();
+      std::ofstream(at / "a.json") << "{\"old\": 1}";
+      const std::string what =
+          std::to_string(signals) + " signals, fsync " + std::to_string(fsync_ms) + " ms";
+      Running program(at,
+                      {"run", "pendulum", "--frames", "60", "--csv", "a.csv", "--json", "a.json"},
+                      fsync_ms);
+      program.wait_for("a.json.");
+      if (fsync_ms > 0) std::this_thread::sleep_for(milliseconds(200));  // it commits the first
+      for (int i = 0; i < signals; ++i) {
+        program.send(SIGTERM);
+        std::this_thread::sleep_for(milliseconds(5));  // pending ones are merged
+      }
+      const int code = program.wait();
+      EXPECT_TRUE(code == 143 || (code == 0 && fsync_ms == 0)) << what << ": " << code;
+      if (code != 0) {
+        EXPECT_NE(program.err().find("cancelled"), std::string::npos) << what;
+      }
+      EXPECT_EQ(temporaries_in(at), 0U) << what;
+      expect_whole(at, false, what);
+      EXPECT_TRUE(fs::exists(at / "a.csv") || fsync_ms != 300) << what << ": there was time";
+    }
+  }
+}
+
 TEST(Signals, EveryEndedCommandSaysSo) {
   const std::vector<std::vector<std::string>> commands = {
       {"recommend", "bridge"},  {"sweep", "bridge", "--ship", "s.txt"},

@@ -1,6 +1,5 @@
 #include "core/io/result_reader.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "core/io/experiment.hpp"
 #include "core/io/object_reader.hpp"
+#include "core/io/result_agreement.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/model/scene_limits.hpp"
 
@@ -39,6 +39,7 @@ constexpr Range kAnyCount{0.0, kMostCount};
 constexpr Range kSubstepsOfFrame{0.0, 1e6};
 constexpr Range kAny;
 constexpr Range kNotNegative{.least = 0.0};
+constexpr Range kSeconds{.least = 0.0, .most = kDurationRange.most, .unit = "s"};
 
 // An object precedes its members.
 constexpr Field kResultFields[] = {
@@ -46,7 +47,7 @@ constexpr Field kResultFields[] = {
     {"", "scene", Type::kText},
     {"", "scene_hash", Type::kHash},
     {"", "settings", Type::kObject},
-    {"", "seconds", Type::kNumber, kNotNegative},
+    {"", "seconds", Type::kNumber, kSeconds},
     {"", "load", Type::kNumber, kLoadRange},
     {"", "seed", Type::kCount, {0.0, kMostSeed}},
     {"", "series", Type::kText},
@@ -184,39 +185,6 @@ void check_fields(const Json& line, Problems& problems) {
   }
 }
 
-/// The fields that belong together, all of them valid.
-void check_agreement(const Json& line, const Experiment& experiment, Problems& problems) {
-  ObjectReader in(line, "", problems);
-  const auto expect = [&](std::string_view name, const Json& expected, const std::string& why) {
-    const Json& value = line.at(std::string(name));
-    if (value != expected) {
-      in.problem(name, must_be(value_text(expected) + ", " + why, value_text(value)));
-    }
-  };
-  expect("id", experiment_id(experiment), "the id of this experiment");
-  expect("series", series_name(experiment.settings), "the series of these settings");
-  const SeriesParameter parameter = series_parameter(experiment.settings);
-  const Json& found = line["parameter"];
-  if (found["name"] != parameter.name || found["value"].get<double>() != parameter.value) {
-    in.problem("parameter",
-               must_be(std::string(parameter.name) + " = " + number_text(parameter.value) +
-                           ", as in the settings",
-                       value_text(found["name"]) + " = " + value_text(found["value"])));
-  }
-  const bool holds = line["holds"].get<bool>();
-  if (holds == line.contains("failed_at")) {
-    in.problem("failed_at", holds ? "is allowed for a failed run only" : "missing");
-  }
-  if (holds != (line["verdict"] == "holds")) {
-    in.problem("verdict",
-               value_text(line["verdict"]) + " contradicts holds, " + (holds ? "true" : "false"));
-  }
-  const Json& work = line["work"];
-  if (work["n_min"] > work["n_median"] || work["n_median"] > work["n_max"]) {
-    in.problem("work", "n_min, n_median and n_max must not decrease");
-  }
-}
-
 std::uint64_t hash_of(const std::string& digits) {
   constexpr int kHexadecimal = 16;
   std::uint64_t value = 0;
@@ -240,7 +208,7 @@ std::optional<Experiment> read_result(const Json& line, Problems& problems) {
     experiment.load = line["load"].get<double>();
     experiment.seed = line["seed"].get<int>();
   }
-  if (found.empty()) check_agreement(line, experiment, found);
+  if (found.empty()) check_result_agreement(line, experiment, found);
   problems.insert(problems.end(), found.begin(), found.end());
   return found.empty() ? std::optional(std::move(experiment)) : std::nullopt;
 }

@@ -121,6 +121,53 @@ TEST(Results, ForgedFieldsAreRefused) {
   EXPECT_GT(forgeries, 1000);
 }
 
+TEST(Results, FieldsThatContradictEachOtherAreRefused) {
+  Settings none;
+  none.mode = Mode::kNone;
+  const Json held = line_of(scenes::heavy_stack(), Settings{});
+  const Json failed = line_of(scenes::swinging_box(), none);
+  struct Forgery {
+    const Json& line;
+    const char* place;
+    Json value;
+    const char* problem;  // its pointer
+  };
+  for (const Forgery& of : std::initializer_list<Forgery>{
+           {held, "/seconds", 86401.0, "/seconds"},
+           {held, "/verdict", "fails at 0.100 s: a joint opens", "/verdict"},
+           {held, "/failed_at", 0.1, "/failed_at"},
+           {held, "/holds", false, "/failed_at"},
+           {held, "/work/frames", 0, "/work/substeps"},
+           {held, "/work/frames", 1000000, "/work/frames"},
+           {held, "/work/frames", 31, "/work/substeps"},
+           {held, "/work/substeps", 29, "/work/substeps"},
+           {held, "/work/n_max", 1000, "/work/substeps"},
+           {held, "/work/n_median", 100000, "/work"},
+           {held, "/errors/energy_drift", -1e9, "/errors/energy_drift"},
+           {held, "/errors/penetration/median", 1.0, "/errors/penetration/median"},
+           {held, "/timing/ms_median", 1e9, "/timing/ms_median"},
+           {failed, "/failed_at", 1e9, "/verdict"},
+           {failed, "/failed_at", 0.0, "/verdict"},
+           {failed, "/verdict", "holds", "/verdict"},
+           {failed, "/verdict", "torn", "/verdict"},
+           {failed, "/work/frames", 0, "/work/substeps"}}) {
+    ASSERT_EQ(problems_of(of.line), 0U);
+    Json forged = of.line;
+    forged[Json::json_pointer(of.place)] = of.value;
+    Problems problems;
+    read_result(forged, problems);
+    ASSERT_FALSE(problems.empty()) << of.place << ": " << of.value;
+    EXPECT_TRUE(std::any_of(problems.begin(), problems.end(),
+                            [&](const Problem& p) { return p.pointer == of.problem; }))
+        << of.place << ": " << problems.front().pointer << " " << problems.front().message;
+  }
+  // A failure after the run has ended, with a verdict to match.
+  Json late = failed;
+  late["failed_at"] = 1000.0;
+  late["verdict"] = "fails at 1000.000 s: a joint opens";
+  EXPECT_EQ(problems_of(late), 1U);
+}
+
 TEST(Results, AnErrorThatIsNotFiniteIsNullInAFailedRunOnly) {
   Settings none;
   none.mode = Mode::kNone;

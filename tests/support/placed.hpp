@@ -59,6 +59,8 @@ inline Scene in_units(Scene scene, double mass, double length, double time = 1.0
     body.position *= length;
     body.velocity *= speed;
     body.angular_velocity /= time;
+    body.force *= mass * speed / time;
+    body.torque *= mass * speed / time * length;
   }
   for (Joint& joint : scene.joints) {
     base(joint).anchor_a *= length;

@@ -61,7 +61,8 @@ struct OwnFieldWriter {
 
 /// @param body index, or kWorld
 std::string name_of_body(const Scene& scene, int body) {
-  return body == kWorld ? std::string(kWorldName) : scene.bodies[index(body)].name;
+  if (body == kWorld) return std::string(kWorldName);
+  return body_fault(scene.bodies, body) ? "" : scene.bodies[index(body)].name;
 }
 
 Json criteria_json(const Scene& scene) {

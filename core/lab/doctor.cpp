@@ -399,6 +399,23 @@ bool add_armature(Scene& scene, int joint, double armature) {
   return added;
 }
 
+/// What is wrong with a question, or nothing.
+std::optional<std::string> fault_of(const DoctorQuestion& question) {
+  const auto outside = [](double x, const Range& range) { return x != 0.0 && !range.contains(x); };
+  if (!question.engine) return "there is no engine";
+  if (outside(question.step, kStepRange)) {
+    return "the step " + must_be(kStepRange.text(), number_text(question.step));
+  }
+  if (outside(question.seconds, kRunRange)) {
+    return "the duration of a run " + must_be(kRunRange.text(), number_text(question.seconds));
+  }
+  if (question.held < 0 || question.held > kMostHeld) {
+    return "the number of held steps " +
+           must_be("from 0 to " + std::to_string(kMostHeld), std::to_string(question.held));
+  }
+  return std::nullopt;
+}
+
 class Doctor {
  public:
   Doctor(std::shared_ptr<const Scene> scene, DoctorQuestion question)
@@ -410,8 +427,12 @@ class Doctor {
       d.problem = *refused;
       return d;
     }
-    if (!(question_.step > 0.0)) question_.step = scene_->frame;
-    if (!(question_.seconds > 0.0)) {
+    if (auto fault = fault_of(question_)) {
+      d.problem = *fault;
+      return d;
+    }
+    if (question_.step == 0.0) question_.step = scene_->frame;
+    if (question_.seconds == 0.0) {
       question_.seconds = std::min(scene_->criteria.duration, kMostSeconds);
     }
     d.question = question_;

@@ -120,7 +120,7 @@ struct Diagnosis {
   std::vector<TriedRemedy> remedies;  // if it does not hold with a margin
 };
 
-/// Answers a question about a scene.
+/// Answers a question about a scene. A question out of the ranges above is not understood.
 Diagnosis diagnose(std::shared_ptr<const Scene> scene, const DoctorQuestion& question);
 
 /// The run that Diagnosis::at_step judges, with its settings: the scene after the doctor's shake,

@@ -37,7 +37,7 @@ void HoldSearch::start() {
 void HoldSearch::advance_by_a_frame() {
   if (run_->advance()) return;
   Result result = run_->result();
-  if (result.metrics.holds && serves_(result)) {
+  if (result.metrics.holds && (!serves_ || serves_(result))) {
     found_ = failed_.size();
     return;
   }

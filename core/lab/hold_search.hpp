@@ -20,7 +20,7 @@ class HoldSearch {
   /// @param seconds duration of the runs that are tried [s]; a candidate of this duration is taken
   /// as it is
   /// @param reference of the scene; must outlive the search
-  /// @param serves judges the complete run, if it holds
+  /// @param serves judges the complete run, if it holds; without it, each serves that holds
   /// @param budget of each frame
   HoldSearch(std::shared_ptr<const Scene> scene, std::vector<Result> candidates, double seconds,
              const Reference& reference, Serves serves, const Budget& budget = {});

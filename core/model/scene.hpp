@@ -89,11 +89,17 @@ inline bool is_fixed(const Scene& scene, int body) {
   return body == kWorld || scene.bodies[index(body)].is_static;
 }
 
+/// The radius of a body's shape about its centre; 0 for kWorld and for an index that no body has.
+inline double radius_of_body(const Scene& scene, int body) {
+  if (body < 0 || index(body) >= scene.bodies.size()) return 0.0;
+  return radius_around(scene.bodies[index(body)].shape);
+}
+
 /// Reference length for a joint's gap: both arms plus the radius of body a [m].
 inline double size_of_joint(const Scene& scene, const JointBase& joint) {
   // A world anchor is a position, not an arm.
   const double arm_b = joint.b == kWorld ? 0.0 : joint.anchor_b.norm();
-  return joint.anchor_a.norm() + arm_b + radius_around(scene.bodies[index(joint.a)].shape);
+  return joint.anchor_a.norm() + arm_b + radius_of_body(scene, joint.a);
 }
 
 /// The gap at which a joint counts as torn, unless it is a spring, whose stretch is part of the
@@ -101,8 +107,8 @@ inline double size_of_joint(const Scene& scene, const JointBase& joint) {
 inline double largest_gap(const Scene& scene, const JointBase& joint) {
   constexpr double kTorn = 0.1;  // of its size
   // A joint at the centre of b has no arms, and a may be a plane.
-  const double b =
-      is_fixed(scene, joint.b) ? 0.0 : radius_around(scene.bodies[index(joint.b)].shape);
+  const bool has_b = joint.b >= 0 && index(joint.b) < scene.bodies.size();
+  const double b = has_b && !is_fixed(scene, joint.b) ? radius_of_body(scene, joint.b) : 0.0;
   return scene.criteria.joint_gap.value_or(kTorn * std::max(size_of_joint(scene, joint), b));
 }
 

@@ -1,5 +1,6 @@
 #include "core/model/scene_builder.hpp"
 
+#include <stdexcept>
 #include <utility>
 
 #include "core/math/across.hpp"
@@ -42,10 +43,13 @@ void fix_axes(const Scene& scene, const Vec3& along, auto& joint) {
   joint.across_b = axis_in(scene, joint.b, v1);
 }
 
-/// Calls `visit` with a joint that has a travel.
-void visit_slide(Joint& joint, const auto& visit) {
-  if (auto* slide = std::get_if<PrismaticJoint>(&joint)) visit(*slide);
-  if (auto* slide = std::get_if<CylindricalJoint>(&joint)) visit(*slide);
+/// Calls on_hinge or on_slide with a joint that has an angle or a travel.
+void visit_coordinate(Scene& scene, int joint, const auto& on_hinge, const auto& on_slide) {
+  Joint& of = scene.joints.at(static_cast<std::size_t>(joint));
+  if (auto* hinge = std::get_if<HingeJoint>(&of)) return on_hinge(*hinge);
+  if (auto* slide = std::get_if<PrismaticJoint>(&of)) return on_slide(*slide);
+  if (auto* slide = std::get_if<CylindricalJoint>(&of)) return on_slide(*slide);
+  throw std::invalid_argument(base(of).name + " is no hinge and no slide");
 }
 
 }  // namespace
@@ -104,45 +108,52 @@ AngleZero SceneBuilder::zero_of(const HingeJoint& hinge) const {
 }
 
 void SceneBuilder::limit(int joint, double lower, double upper, double restitution) {
-  Joint& of = scene_.joints[index(joint)];
-  visit_slide(of, [&](auto& slide) { slide.limit = TravelLimit{{lower, upper, restitution}}; });
-  if (auto* hinge = std::get_if<HingeJoint>(&of)) {
-    hinge->limit = AngleLimit{{lower, upper, restitution}, zero_of(*hinge)};
-  }
+  const Limit by{lower, upper, restitution};
+  visit_coordinate(
+      scene_, joint,
+      [&](auto& hinge) {
+        hinge.limit = AngleLimit{by, zero_of(hinge)};
+      },
+      [&](auto& slide) { slide.limit = TravelLimit{by}; });
 }
 
 void SceneBuilder::drive(int joint, double velocity, double effort) {
-  Joint& of = scene_.joints[index(joint)];
-  visit_slide(of, [&](auto& slide) { slide.motor = LinearMotor{{velocity, effort}}; });
-  if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->motor = AngularMotor{{velocity, effort}};
+  visit_coordinate(
+      scene_, joint,
+      [&](auto& hinge) {
+        hinge.motor = AngularMotor{{velocity, effort}};
+      },
+      [&](auto& slide) {
+        slide.motor = LinearMotor{{velocity, effort}};
+      });
 }
 
 void SceneBuilder::drive(int joint, const Drive& by) {
-  Joint& of = scene_.joints[index(joint)];
-  visit_slide(of, [&](auto& slide) { slide.drive = LinearDrive{by}; });
-  if (auto* hinge = std::get_if<HingeJoint>(&of)) {
-    hinge->drive = AngularDrive{by, zero_of(*hinge)};
-  }
+  visit_coordinate(
+      scene_, joint,
+      [&](auto& hinge) {
+        hinge.drive = AngularDrive{by, zero_of(hinge)};
+      },
+      [&](auto& slide) { slide.drive = LinearDrive{by}; });
 }
 
 void SceneBuilder::add_spring(int joint, const Spring& spring) {
-  Joint& of = scene_.joints[index(joint)];
-  visit_slide(of, [&](auto& slide) { slide.spring = LinearSpring{spring}; });
-  if (auto* hinge = std::get_if<HingeJoint>(&of)) {
-    hinge->spring = AngularSpring{spring, zero_of(*hinge)};
-  }
+  visit_coordinate(
+      scene_, joint,
+      [&](auto& hinge) {
+        hinge.spring = AngularSpring{spring, zero_of(hinge)};
+      },
+      [&](auto& slide) { slide.spring = LinearSpring{spring}; });
 }
 
 void SceneBuilder::rub(int joint, double effort) {
-  Joint& of = scene_.joints[index(joint)];
-  visit_slide(of, [&](auto& slide) { slide.friction = effort; });
-  if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->friction = effort;
+  const auto set = [&](auto& of) { of.friction = effort; };
+  visit_coordinate(scene_, joint, set, set);
 }
 
 void SceneBuilder::add_armature(int joint, double inertia) {
-  Joint& of = scene_.joints[index(joint)];
-  visit_slide(of, [&](auto& slide) { slide.armature = inertia; });
-  if (auto* hinge = std::get_if<HingeJoint>(&of)) hinge->armature = inertia;
+  const auto set = [&](auto& of) { of.armature = inertia; };
+  visit_coordinate(scene_, joint, set, set);
 }
 
 int SceneBuilder::add_prismatic(int a, int b, const Vec3& point, const Vec3& axis) {

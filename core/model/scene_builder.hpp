@@ -11,8 +11,10 @@ namespace substep {
 /// effects from the content, anchors and axes of joints from world coordinates, names. All else is
 /// set through scene().
 ///
-/// Nothing is checked while building: a Simulator rejects invalid scenes, and validate() returns
-/// all problems.
+/// Numbers are not checked while building: a Simulator rejects invalid scenes, and validate()
+/// returns all problems. An index of a body or a joint that is not there throws std::out_of_range,
+/// but for the bodies of a new joint; a limit, drive, spring, friction or armature of a joint that
+/// is no hinge and no slide throws std::invalid_argument.
 class SceneBuilder {
  public:
   /// @param name identifier of the scene: a-z, 0-9, _ and -
@@ -61,8 +63,8 @@ class SceneBuilder {
   int add_distance(int a, int b, const Vec3& on_a, const Vec3& on_b);
 
   /// A body or joint by its returned index. Set orientation and position before adding joints.
-  Body& body(int index) { return scene_.bodies[static_cast<std::size_t>(index)]; }
-  JointBase& joint(int index) { return base(scene_.joints[static_cast<std::size_t>(index)]); }
+  Body& body(int index) { return scene_.bodies.at(static_cast<std::size_t>(index)); }
+  JointBase& joint(int index) { return base(scene_.joints.at(static_cast<std::size_t>(index))); }
   /// Access to gravity, frame, settings and all else.
   Scene& scene() { return scene_; }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -449,6 +450,63 @@ TEST(RefusedScenes, OtherMovedRunsHaveEnded) {
   trials.advance();
   const RemedyTrials rest(std::move(trials));
   EXPECT_FALSE(trials.advance());
+}
+
+TEST(RefusedQuestions, OfTheDoctor) {
+  const auto problem = [](const std::function<void(DoctorQuestion&)>& change) {
+    DoctorQuestion question;
+    question.runs = false;
+    change(question);
+    return diagnose(std::make_shared<const Scene>(valid_scene()), question).problem;
+  };
+  EXPECT_EQ(problem([](DoctorQuestion&) {}), "");
+  EXPECT_EQ(problem([](DoctorQuestion& q) { q.engine = nullptr; }), "there is no engine");
+  for (const double step : {kNotANumber, -1.0, 2.0, std::numeric_limits<double>::infinity()}) {
+    EXPECT_NE(problem([&](DoctorQuestion& q) { q.step = step; }), "") << step;
+    EXPECT_NE(problem([&](DoctorQuestion& q) { q.seconds = 1e6 * step; }), "") << step;
+  }
+  EXPECT_NE(problem([](DoctorQuestion& q) { q.held = -1; }), "");
+}
+
+TEST(RefusedBuilding, OfIndicesAndJointsWithoutACoordinate) {
+  SceneBuilder builder("one");
+  builder.add_body(Sphere{0.5}, 1.0, Vec3::Zero());
+  const int ball = builder.add_ball_joint(0, kWorld, Vec3::UnitX());
+  const std::vector<std::function<void(int)>> calls = {
+      [&](int joint) { builder.limit(joint, 0.0, 1.0); },
+      [&](int joint) { builder.drive(joint, 1.0, 1.0); },
+      [&](int joint) { builder.drive(joint, Drive{}); },
+      [&](int joint) {
+        builder.add_spring(joint, {0.0, 1.0, 0.0});
+      },
+      [&](int joint) { builder.rub(joint, 1.0); },
+      [&](int joint) { builder.add_armature(joint, 1.0); }};
+  for (const auto& call : calls) {
+    EXPECT_THROW(call(-1), std::out_of_range);
+    EXPECT_THROW(call(1), std::out_of_range);
+    EXPECT_THROW(call(ball), std::invalid_argument);
+  }
+  EXPECT_THROW(builder.body(1), std::out_of_range);
+  EXPECT_THROW(builder.joint(-1), std::out_of_range);
+}
+
+TEST(RefusedScenes, AJointOfABodyThatIsNotThere) {
+  Scene scene = valid_scene();
+  base(scene.joints[0]).a = 99;
+  base(scene.joints[0]).b = -7;
+  EXPECT_EQ(joint_json(scene, scene.joints[0])["a"], "");
+  EXPECT_GE(largest_gap(scene, base(scene.joints[0])), 0.0);
+}
+
+TEST(HoldSearch, WithoutAFunctionEachRunServesThatHolds) {
+  const auto scene = std::make_shared<const Scene>(valid_scene());
+  Result candidate;
+  candidate.experiment = experiment_of(*scene, scene->settings);
+  candidate.experiment.duration = kSeconds;
+  HoldSearch search(scene, {candidate}, 2.0 * kSeconds, no_reference(), nullptr);
+  while (search.advance(1.0)) {
+  }
+  EXPECT_TRUE(search.found());
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ int cost(const CostOptions& options) {
   const auto scene = load_scene(options.scene);
   Output json;
   if (!scene || !json.open(options.json)) return kBadInput;
-  Experiment experiment = experiment_of(*scene, options.settings.applied_to(*scene));
+  Experiment experiment = experiment_of(*scene, options.settings.of_run(*scene));
   experiment.duration = static_cast<double>(options.length.count(*scene)) * scene->frame;
   const CostBreakdown costs = cost_of_effects(*scene, experiment);
   if (json.is_open()) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/cli/within.hpp"
+#include "core/model/idle_settings.hpp"
 #include "core/model/methods.hpp"
 #include "core/model/problem.hpp"
 
@@ -127,6 +128,16 @@ void SettingsFlags::take(const SettingField& field, const std::string& text) {
 Settings SettingsFlags::applied_to(const Scene& scene) const {
   Settings settings = preset_ != nullptr ? settings_for(*preset_, scene) : scene.settings;
   for (const auto& [field, text] : given_) set_setting(*field, text, settings);
+  return settings;
+}
+
+Settings SettingsFlags::of_run(const Scene& scene) const {
+  const Settings settings = applied_to(scene);
+  for (const auto& [field, text] : given_) {
+    if (const auto idle = idle_reason(settings, field->name)) {
+      throw CLI::ValidationError("--" + flag_name(*field), *idle);
+    }
+  }
   return settings;
 }
 

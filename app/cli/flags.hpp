@@ -29,6 +29,9 @@ class SettingsFlags {
 
   /// The scene's settings with the given preset and flags applied.
   [[nodiscard]] Settings applied_to(const Scene& scene) const;
+  /// The same for one run. Throws a CLI::ValidationError for a flag that has no effect beside the
+  /// others.
+  [[nodiscard]] Settings of_run(const Scene& scene) const;
 
  private:
   void add_preset(CLI::App& command);

@@ -24,7 +24,7 @@ int hash(const HashOptions& options) {
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   Simulator simulator(scene);
-  simulator.set_settings(options.settings.applied_to(*scene));
+  simulator.set_settings(options.settings.of_run(*scene));
   simulator.set_budget(options.budget.budget());
   const std::int64_t frames = options.length.count(*scene);
   for (std::int64_t i = 0; i < frames; ++i) {

@@ -86,7 +86,7 @@ int run(const RunOptions& options) {
   }
 
   Simulator simulator(scene);
-  simulator.set_settings(options.settings.applied_to(*scene));
+  simulator.set_settings(options.settings.of_run(*scene));
   simulator.set_budget(options.budget.budget());
   if (const Problems problems = simulator.problems(); !problems.empty()) {  // --load, for example
     for (const Problem& problem : problems) {

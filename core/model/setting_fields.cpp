@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/model/idle_settings.hpp"
 #include "core/model/names.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/problem.hpp"
@@ -178,7 +179,7 @@ std::optional<std::string> set_setting(const SettingField& field, std::string_vi
 std::string setting_flags(const Settings& settings, const Settings& base) {
   std::string flags;
   for (const SettingField& field : setting_fields()) {
-    if (field.name == "watch_stiffness") continue;
+    if (field.name == "watch_stiffness" || idle_reason(settings, field.name)) continue;
     const std::string value = setting_text(field, settings);
     if (value == setting_text(field, base)) continue;
     std::string flag(field.name);

@@ -66,7 +66,8 @@ std::optional<std::string> set_setting(const SettingField& field, std::string_vi
                                        Settings& settings);
 
 /// " --mode const --n 12": the command-line flags that turn `base` into `settings`.
-/// watch_stiffness, which affects only the display, is omitted.
+/// watch_stiffness, which affects only the display, is omitted, and what has no effect beside the
+/// others (idle_settings.hpp).
 std::string setting_flags(const Settings& settings, const Settings& base);
 
 }  // namespace substep

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -94,20 +95,36 @@ class Experiments {
     return scene;
   }
 
+  /// Lists are usually in order of the scene: the last references suffice, and take little memory.
   const Reference& reference(const std::shared_ptr<const Scene>& scene, double duration) {
-    auto& reference = references_[{scene->name, duration}];
-    if (!reference) reference = std::make_unique<Reference>(find_reference(scene, duration));
-    return *reference;
+    const auto is_wanted = [&](const KnownReference& known) {
+      return known.scene == scene && known.duration == duration;
+    };
+    auto at = std::find_if(references_.begin(), references_.end(), is_wanted);
+    if (at == references_.end()) {
+      if (references_.size() == kMostReferences) references_.pop_back();
+      references_.push_front({scene, duration, find_reference(scene, duration)});
+    } else {
+      references_.splice(references_.begin(), references_, at);
+    }
+    return references_.front().reference;
   }
+
+  struct KnownReference {
+    std::shared_ptr<const Scene> scene;
+    double duration = 0.0;  // [s]
+    Reference reference;
+  };
 
   static constexpr std::size_t kMostLine = 1U << 20U;  // [bytes]
   static constexpr std::size_t kMostBad = 100;         // lines
+  static constexpr std::size_t kMostReferences = 4;
 
   std::shared_ptr<const Scene> given_;
   std::map<std::string, std::shared_ptr<const Scene>> scenes_;
-  std::map<std::pair<std::string, double>, std::unique_ptr<Reference>> references_;
-  std::size_t number_ = 0;  // current line
-  std::size_t bad_ = 0;     // number of invalid lines
+  std::list<KnownReference> references_;  // the last used first
+  std::size_t number_ = 0;                // current line
+  std::size_t bad_ = 0;                   // number of invalid lines
 };
 
 }  // namespace

@@ -4,10 +4,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "app/cli/bounded_text.hpp"
@@ -19,6 +21,7 @@
 #include "app/cli/scene_source.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
+#include "core/io/result_reader.hpp"
 #include "core/lab/sweep.hpp"
 
 namespace substep::cli {
@@ -129,23 +132,31 @@ std::optional<MergedScene> shipped_scene(const ResultsScene& results) {
   return std::nullopt;
 }
 
-/// The ids in the order of an unsharded sweep.
+/// The ids of results in the order of an unsharded sweep; those of other settings are left out.
 std::vector<std::string> plan_of(const Scene& scene, const std::vector<Json>& results) {
-  std::set<std::pair<double, int>> kinds;  // duration and seed
-  for (const Json& result : results) {
-    kinds.emplace(result.value("seconds", 0.0), result.value("seed", 0));
-  }
-  std::vector<std::string> plan;
+  const auto settings_id = [](Experiment experiment) {
+    experiment.duration = 0.0;
+    experiment.seed = 0;
+    return experiment_id(experiment);
+  };
+  std::map<std::string, std::size_t> position;  // in the sweep, by settings_id
   Experiment experiment = experiment_of(scene, scene.settings);
-  for (const auto& [seconds, seed] : kinds) {
-    for (const SweepPoint& point : default_sweep(scene)) {
-      experiment.settings = point.settings;
-      experiment.seed = seed;
-      experiment.load = point.load;
-      experiment.duration = seconds;
-      plan.push_back(experiment_id(experiment));
-    }
+  for (const SweepPoint& point : default_sweep(scene)) {
+    experiment.settings = point.settings;
+    experiment.load = point.load;
+    position.emplace(settings_id(experiment), position.size());
   }
+  std::vector<std::tuple<double, int, std::size_t, std::string>> planned;
+  for (const Json& result : results) {
+    Problems none;  // it was read before
+    const auto read = read_result(result, none);
+    const auto found = read ? position.find(settings_id(*read)) : position.end();
+    if (found == position.end()) continue;
+    planned.emplace_back(read->duration, read->seed, found->second, experiment_id(*read));
+  }
+  std::sort(planned.begin(), planned.end());
+  std::vector<std::string> plan;
+  for (auto& [seconds, seed, at, id] : planned) plan.push_back(std::move(id));
   return plan;
 }
 
@@ -164,6 +175,13 @@ int merge(const MergeOptions& options) {
   // Read here too: nothing is written if the results are not of one scene.
   std::vector<fs::path> sources = parts;
   if (fs::exists(path, error)) sources.insert(sources.begin(), path);
+  for (const fs::path& source : sources) {
+    // Only a pipe that the command line names is waited for.
+    const bool is_part = source.parent_path() == folder && !fs::is_directory(source, error);
+    if (!is_part || fs::is_regular_file(source, error)) continue;
+    complain("%s: not a regular file", source.string().c_str());
+    return kBadInput;
+  }
   for (const fs::path& source : sources) {
     std::string text;
     if (!read_part(source.string(), text)) return kBadInput;

@@ -54,9 +54,9 @@ class Agreement {
     const double least = std::floor(end / longest);
     const double most = std::ceil(seconds / kFrameRange.least);
     if (frames < least || frames > most) {
-      problem("/work/frames", must_be("from " + number_text(least) + " to " + number_text(most) +
-                                          ", for " + number_text(end) + " s",
-                                      value_text(line_["work"]["frames"])));
+      problem(of_work("frames"), must_be("from " + number_text(least) + " to " + number_text(most) +
+                                             ", for " + number_text(end) + " s",
+                                         value_text(line_["work"]["frames"])));
     }
   }
 
@@ -65,19 +65,19 @@ class Agreement {
     if (frames == 0.0) {
       for (const auto& [name, value] : line_["work"].items()) {
         if (value.is_number() && value != 0)
-          problem("/work/" + name, must_be("0 in a run without frames", value_text(value)));
+          problem(of_work(name), must_be("0 in a run without frames", value_text(value)));
       }
       return;
     }
     const double n_min = count("n_min");
     const double n_max = count("n_max");
     if (n_min > count("n_median") || count("n_median") > n_max) {
-      problem("/work", "n_min, n_median and n_max must not decrease");
+      problem(of_work("n_median"), "n_min, n_median and n_max must not decrease");
       return;
     }
     const double least = (frames - 1.0) * n_min + n_max;
     if (count("substeps") < least) {
-      problem("/work/substeps",
+      problem(of_work("substeps"),
               must_be("at least " + number_text(least) + ", by the frames, n_min and n_max",
                       value_text(line_["work"]["substeps"])));
     }
@@ -106,6 +106,11 @@ class Agreement {
     if (value != expected) {
       problem('/' + name, must_be(value_text(expected) + ", " + why, value_text(value)));
     }
+  }
+
+  /// The pointer to a field of "work".
+  static std::string of_work(const std::string& name) {
+    return (Json::json_pointer() / "work" / name).to_string();
   }
 
   double count(const std::string& name) { return line_["work"][name].get<double>(); }

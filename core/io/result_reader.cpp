@@ -1,6 +1,7 @@
 #include "core/io/result_reader.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -157,7 +158,8 @@ void check(const Field& field, bool failed, ObjectReader& in) {
       in.number(field.name, field.range, number, kOptional);
       break;
     case Type::kCount:
-      if (!value->is_number_integer() || !field.range.contains(value->get<double>())) {
+      number = value->is_number() ? value->get<double>() : std::nan("");
+      if (!field.range.contains(number) || number != std::floor(number)) {
         in.problem(field.name, must_be("a whole number " + field.range.text(), value_text(*value)));
       }
       break;

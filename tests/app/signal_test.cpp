@@ -285,14 +285,11 @@ TEST(Signals, EveryEndedCommandSaysSo) {
   const std::vector<std::vector<std::string>> commands = {
       {"recommend", "bridge"},  {"sweep", "bridge", "--ship", "s.txt"},
       {"check", "--hard"},      {"hash", "bridge", "--seconds", "80000"},
-      {"reproduce", "--quiet"}, {"merge", "folder"}};
+      {"reproduce", "--quiet"}, {"merge", "folder", "pipe"}};
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     for (const std::vector<std::string>& command : commands) {
       const fs::path at = empty_folder();
-      if (command[0] == "merge") {  // it waits for a pipe
-        fs::create_directories(at / "folder");
-        ASSERT_EQ(::mkfifo((at / "folder" / "results.1.jsonl").c_str(), 0666), 0);
-      }
+      ASSERT_EQ(::mkfifo((at / "pipe").c_str(), 0666), 0);  // merge waits for it
       Running program(at, command, 0);
       program.wait_until_it_catches(signal);
       std::this_thread::sleep_for(milliseconds(200));  // it is at work

@@ -121,6 +121,15 @@ TEST(Results, ForgedFieldsAreRefused) {
   EXPECT_GT(forgeries, 1000);
 }
 
+TEST(Results, AWholeNumberMayHaveADecimalPoint) {
+  Json line = line_of(scenes::heavy_stack(), Settings{});
+  line["seed"] = 0.0;
+  line["work"]["frames"] = 30.0;
+  EXPECT_EQ(problems_of(line), 0U);
+  line["work"]["frames"] = 29.5;
+  EXPECT_EQ(problems_of(line), 1U);
+}
+
 TEST(Results, FieldsThatContradictEachOtherAreRefused) {
   Settings none;
   none.mode = Mode::kNone;
@@ -128,38 +137,42 @@ TEST(Results, FieldsThatContradictEachOtherAreRefused) {
   const Json failed = line_of(scenes::swinging_box(), none);
   struct Forgery {
     const Json& line;
-    const char* place;
+    const char* part;
+    const char* name;
     Json value;
-    const char* problem;  // its pointer
+    const char* problem;  // the name of its field
   };
   for (const Forgery& of : std::initializer_list<Forgery>{
-           {held, "/seconds", 86401.0, "/seconds"},
-           {held, "/verdict", "fails at 0.100 s: a joint opens", "/verdict"},
-           {held, "/failed_at", 0.1, "/failed_at"},
-           {held, "/holds", false, "/failed_at"},
-           {held, "/work/frames", 0, "/work/substeps"},
-           {held, "/work/frames", 1000000, "/work/frames"},
-           {held, "/work/frames", 31, "/work/substeps"},
-           {held, "/work/substeps", 29, "/work/substeps"},
-           {held, "/work/n_max", 1000, "/work/substeps"},
-           {held, "/work/n_median", 100000, "/work"},
-           {held, "/errors/energy_drift", -1e9, "/errors/energy_drift"},
-           {held, "/errors/penetration/median", 1.0, "/errors/penetration/median"},
-           {held, "/timing/ms_median", 1e9, "/timing/ms_median"},
-           {failed, "/failed_at", 1e9, "/verdict"},
-           {failed, "/failed_at", 0.0, "/verdict"},
-           {failed, "/verdict", "holds", "/verdict"},
-           {failed, "/verdict", "torn", "/verdict"},
-           {failed, "/work/frames", 0, "/work/substeps"}}) {
+           {held, "", "seconds", 86401.0, "seconds"},
+           {held, "", "verdict", "fails at 0.100 s: a joint opens", "verdict"},
+           {held, "", "failed_at", 0.1, "failed_at"},
+           {held, "", "holds", false, "failed_at"},
+           {held, "work", "frames", 0, "substeps"},
+           {held, "work", "frames", 1000000, "frames"},
+           {held, "work", "frames", 31, "substeps"},
+           {held, "work", "substeps", 29, "substeps"},
+           {held, "work", "n_max", 1000, "substeps"},
+           {held, "work", "n_median", 100000, "n_median"},
+           {held, "errors", "energy_drift", -1e9, "energy_drift"},
+           {held, "errors/penetration", "median", 1.0, "median"},
+           {held, "timing", "ms_median", 1e9, "ms_median"},
+           {failed, "", "failed_at", 1e9, "verdict"},
+           {failed, "", "failed_at", 0.0, "verdict"},
+           {failed, "", "verdict", "holds", "verdict"},
+           {failed, "", "verdict", "torn", "verdict"},
+           {failed, "work", "frames", 0, "substeps"}}) {
     ASSERT_EQ(problems_of(of.line), 0U);
     Json forged = of.line;
-    forged[Json::json_pointer(of.place)] = of.value;
+    Json::json_pointer place;
+    if (*of.part != '\0') place = Json::json_pointer(std::string("/") + of.part);
+    forged[place / of.name] = of.value;
     Problems problems;
     read_result(forged, problems);
-    ASSERT_FALSE(problems.empty()) << of.place << ": " << of.value;
-    EXPECT_TRUE(std::any_of(problems.begin(), problems.end(),
-                            [&](const Problem& p) { return p.pointer == of.problem; }))
-        << of.place << ": " << problems.front().pointer << " " << problems.front().message;
+    ASSERT_FALSE(problems.empty()) << of.name << ": " << of.value;
+    EXPECT_TRUE(std::any_of(
+        problems.begin(), problems.end(),
+        [&](const Problem& p) { return p.pointer.ends_with(std::string("/") + of.problem); }))
+        << of.name << ": " << problems.front().pointer << " " << problems.front().message;
   }
   // A failure after the run has ended, with a verdict to match.
   Json late = failed;

@@ -78,9 +78,10 @@ TEST(Command, NamesOnlyWhatDiffersFromTheScene) {
   Headless h;
   EXPECT_EQ(h.app->command(), "./dev cli run swinging_box");
   h.app->set("mode", "const");
-  h.app->set("n_max", "99");
+  h.app->set("n", "99");
+  h.app->set("n_max", "77");  // not read in this mode
   h.app->session.step();
-  EXPECT_EQ(h.app->command(), "./dev cli run swinging_box --mode const --n-max 99 --frames 1");
+  EXPECT_EQ(h.app->command(), "./dev cli run swinging_box --mode const --n 99 --frames 1");
 }
 
 TEST(Command, HoldsLoadAndSeed) {

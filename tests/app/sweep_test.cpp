@@ -264,6 +264,29 @@ TEST(SweepCommand, AListSpreadWithSplitMergesToTheWhole) {
   EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
 }
 
+// Only the last references are kept: one that is found again is the same.
+TEST(SweepCommand, ExperimentsOfManyDurationsTakingTurnsHaveTheSameResults) {
+  const fs::path list = folder() / "turns";
+  {
+    std::ofstream out(list);
+    for (int i = 0; i < 18; ++i) {
+      out << R"({"scene": "pendulum", "seconds": 0.)" << 1 + i % 6 << "}\n";
+    }
+  }
+  const Outcome run = substep("run --experiments " + list.string());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::vector<Json> results;
+  for (const std::string& line : lines_of(run.out)) {
+    results.push_back(Json::parse(line, nullptr, false));
+    results.back().erase("timing");
+  }
+  ASSERT_EQ(results.size(), 18U);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    EXPECT_TRUE(results[i]["errors"].contains("trajectory_peak")) << "no reference";
+    EXPECT_EQ(results[i], results[i % 6]);
+  }
+}
+
 TEST(SweepCommand, InvalidExperimentsAreReportedByLineAndTheOthersRun) {
   const fs::path out = folder() / "list";
   std::ofstream(out) << "{\"scene\": \"free_fall\", \"seconds\": 0.1}\n"
